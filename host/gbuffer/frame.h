@@ -1,0 +1,137 @@
+// A frame: the one thing both evaluators (device and reference) take. Scene and G-buffer are joined here, so that
+// neither evaluator knows files, names or roles; each implements the pixel rules below on its own.
+//
+// PIXEL RULES (public interface, "Output image"; models.md section 0). For every pixel, in this order:
+//  1. Non-finite: if any plane that the frame names (planes of roles and of parameters of materials that claim the
+//     pixel or not alike) holds NaN or Inf at the pixel, every output is 0 and the pixel is counted. One exception:
+//     +Inf in the depth plane is a background sentinel, not an error.
+//  2. Coverage c = coverage plane clamped to [0, 1], or 1 without that plane.
+//  3. Surface: raw normal n = plane (unorm encoding: 2 (plane / c) - 1). There is a surface if |n| >= 1e-6, c > 0, and
+//     not (no coverage plane and depth >= 6e4 with a depth plane). No surface: every output including alpha is 0.
+//  4. N = normalised n, turned by camera_to_world for camera-space normals.
+//  5. Eye and position. The position is valid if the frame has a position plane and not (depth plane and depth >= 6e4)
+//     and, where the pixel rays are known, not (no depth plane and position = (0,0,0)).
+//     Perspective: E = normalize(eye - P) where the position is valid; otherwise E = -normalize(ray direction) of the
+//     pixel where rays are known; otherwise (an eye but neither position nor rays) E = -view_axis.
+//     Orthographic: E = -view_axis (the camera's +Z) everywhere.
+//     P for point and spot lights: the position plane where valid; else from depth (planar: origin + depth * direction
+//     with direction . view_axis = 1; ray: origin + depth * normalize(direction)), also when depth is a sentinel
+//     (then the light is practically absent).
+//  6. Parameters: plane value, divided by c where `averaged` (c > 0 holds here), times scale plus offset, then convert,
+//     then clamped: f0, albedo to [0, 1] (values beyond by more than 1e-3 are counted as clamped), shininess to
+//     [0, 65536], emission to >= 0. ggx_roughness: 2/r^4 - 2; smoothness: r = 1 - x; oren_nayar_sigma: 2/x^2; division by
+//     zero gives the upper clamp.
+//  7. Material: the one whose ids hold the material_id plane's value rounded to the nearest whole number, else the
+//     first. A value further than 0.01 from a whole number is counted as a fractional id (on covered pixels).
+//  8. Lights: L, E_0 as in scene.h. NL = N.L; no light unless NL > 0. NE = max(N.E, 1e-4) wherever formulas say N.E.
+//     E.L, H, E.H, N.H are geometric (unclamped N), E.H and N.H clamped to [0, 1] before use; if |L+E|^2 < 1e-7,
+//     N.H = E.H = 0. NH^0 = 1. gamma = E.L - NE NL with the clamped NE.
+//  9. Combination, per light: blinn_phong: diffuse (1 - F0), blinn_phong_exact: diffuse (1 - Schlick(F0, NL)); none:
+//     diffuse unweighted. Radiance = (diffuse f_cos + specular f_cos) E_0.
+// 10. Output: (sum over lights + emission) * c, alpha = c. AOV diffuse and specular: their sums * c without emission;
+//     one AOV per light: its share * c. A result that does not fit in a float is 0 and counted as non-finite.
+#pragma once
+
+#include "host/base/plane_slab.h"
+#include "host/gbuffer/image_layout.h"
+#include "host/scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace clshade {
+
+/// Index of a plane in a frame's slab; absent: -1.
+using PlaneIndex = int;
+inline constexpr PlaneIndex no_plane = -1;
+
+struct RolePlanes {
+    std::array<PlaneIndex, 3> normal{no_plane, no_plane, no_plane}; ///< always present
+    std::array<PlaneIndex, 3> position{no_plane, no_plane, no_plane};
+    PlaneIndex depth = no_plane;
+    PlaneIndex coverage = no_plane;
+    PlaneIndex material_id = no_plane;
+};
+
+/// A parameter bound to planes: constant if planes[0] == no_plane; a one-channel source stands in all three entries.
+struct BoundParameter {
+    std::array<PlaneIndex, 3> planes{no_plane, no_plane, no_plane};
+    glm::dvec3 constant{0.0};
+    double scale = 1.0;
+    double offset = 0.0;
+    Conversion convert = Conversion::none;
+    bool averaged = true; ///< the plane was averaged over coverage: divide by it
+
+    [[nodiscard]] bool is_constant() const { return planes[0] == no_plane; }
+    /// One plane (or one constant) for all three components.
+    [[nodiscard]] bool is_grey() const { return planes[0] == planes[1] && planes[0] == planes[2]; }
+};
+
+struct BoundMaterial {
+    std::string name;
+    std::vector<std::int64_t> ids;
+    SpecularModel specular = SpecularModel::none;
+    DiffuseModel diffuse = DiffuseModel::none;
+    BoundParameter f0;
+    BoundParameter shininess;         ///< of the specular lobe
+    BoundParameter albedo;
+    BoundParameter diffuse_shininess; ///< of the Oren-Nayar models
+};
+
+/// World-space view of the frame. A pixel's centre is at (x + 0.5, y + 0.5), x and y counted from the top left corner
+/// of the data window; origin and direction are affine in it:
+///   origin(x, y) = origin + (x + 0.5) origin_dx + (y + 0.5) origin_dy, direction likewise,
+/// with direction . view_axis = 1 for every pixel. Perspective: the origin is the eye. Orthographic: the direction is
+/// view_axis.
+struct View {
+    bool orthographic = false;
+    bool has_rays = false;       ///< false: only eye and camera_to_world are known
+    glm::dvec3 eye{0.0};         ///< perspective only
+    glm::dvec3 view_axis{0.0, 0.0, -1.0}; ///< unit, the way the camera looks
+    glm::dmat3 camera_to_world{1.0};
+    glm::dvec3 origin{0.0}, origin_dx{0.0}, origin_dy{0.0};
+    glm::dvec3 direction{0.0}, direction_dx{0.0}, direction_dy{0.0};
+};
+
+/// Everything needed to shade one picture. Lights are in world space (the default scene's already turned).
+struct Frame {
+    std::string file; ///< for messages
+    Window data_window;
+    Window display_window;
+    double pixel_aspect = 1.0;
+    PlaneSlab planes;
+    std::vector<std::string> plane_names; ///< full channel name of each plane
+    RolePlanes roles;
+    NormalSpace normal_space = NormalSpace::world;
+    NormalEncoding normal_encoding = NormalEncoding::signed_values;
+    DepthKind depth_kind = DepthKind::planar;
+    View view;
+    std::vector<Light> lights;
+    std::vector<BoundMaterial> materials; ///< never empty; the first takes pixels no other claims
+    BoundParameter emission;              ///< used only if has_emission
+    bool has_emission = false;
+    std::vector<std::string> warnings;
+};
+
+/// Which outputs are wanted beside R, G, B, A.
+struct AovSelection {
+    bool diffuse = false;
+    bool specular = false;
+    bool lights = false;
+};
+
+/// What an evaluator counted.
+struct PixelCounts {
+    std::uint64_t nonfinite = 0;      ///< pixels set to 0 by rule 1 or 10
+    std::uint64_t clamped = 0;        ///< pixels with a parameter clamped by rule 6
+    std::uint64_t fractional_ids = 0; ///< rule 7
+};
+
+/// Names of the output planes in order: R, G, B, A, then diffuse.R, ..., specular.R, ..., light.<name>.R, ...
+[[nodiscard]] std::vector<std::string> output_plane_names(const Frame& frame, const AovSelection& aovs);
+
+} // namespace clshade

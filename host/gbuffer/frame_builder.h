@@ -1,0 +1,34 @@
+// Joins a layout, its roles and a scene into a plan for reading, and the planes read into a Frame.
+#pragma once
+
+#include "host/gbuffer/frame.h"
+#include "host/gbuffer/image_layout.h"
+#include "host/gbuffer/roles.h"
+#include "host/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace clshade {
+
+/// The channels a scene needs of a file, each once, and how the frame will use them. Pixels are read into
+/// frame.planes: plane i takes layout.channels[channels[i]], over frame.data_window (the union of the data windows of
+/// the parts used; what a part does not cover stays 0).
+struct FramePlan {
+    std::vector<int> channels;
+    std::vector<int> keep; ///< indices into `channels` of those only passed through (--keep)
+    Frame frame;           ///< complete but for planes (allocated, zero) and for a camera recovered from positions
+    bool recover_camera = false; ///< neither scene nor header gave a camera: call recover_camera after reading
+};
+
+/// Binds every parameter of every material, the roles and the camera. `keep` lists layers to pass through.
+/// Throws UsageError when a needed role is empty or ambiguous (naming the candidates), when shapes do not fit, when
+/// the windows of the parts do not overlap, or when no camera can be had (naming the [camera] keys).
+[[nodiscard]] FramePlan plan_frame(const ImageLayout& layout, const RoleAssignment& roles, const Scene& scene,
+                                   const std::vector<std::string>& keep = {});
+
+/// After the planes are read: recovers the camera from the Position plane if the plan asks for it, turns camera-space
+/// lights into world space, checks the camera against the positions and adds warnings. Moves the frame out.
+[[nodiscard]] Frame finish_frame(FramePlan plan);
+
+} // namespace clshade

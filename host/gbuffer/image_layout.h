@@ -1,0 +1,60 @@
+// What a file holds, in terms free of file formats: parts, channels, windows, camera attributes.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace clshade {
+
+/// Inclusive pixel bounds, y downwards, as in OpenEXR.
+struct Window {
+    int x_min = 0;
+    int y_min = 0;
+    int x_max = -1;
+    int y_max = -1;
+
+    [[nodiscard]] int width() const { return x_max - x_min + 1; }
+    [[nodiscard]] int height() const { return y_max - y_min + 1; }
+    bool operator==(const Window&) const = default;
+};
+
+enum class SampleType { half, float32, uint32 };
+
+/// One channel of one part. `name` is what users write: the channel's own name, or "part.channel" where the part's name
+/// is what tells equally named channels apart (Nuke's "split by layer", Karma's one part per plane).
+struct ChannelInfo {
+    std::string name;      ///< unique over the file; includes the layer
+    std::string file_name; ///< the channel's name inside its part
+    int part = 0;
+    std::string view; ///< "" or the stereo view this channel belongs to
+    SampleType type = SampleType::half;
+};
+
+struct PartInfo {
+    std::string name; ///< "" in single-part files
+    std::string view;
+    Window data_window;
+    std::string compression; ///< "zip", "dwaa", ... lower case
+    bool tiled = false;
+};
+
+/// Header of an image: everything the role detection and the camera need, nothing of its pixels.
+struct ImageLayout {
+    std::string file;
+    Window display_window;
+    double pixel_aspect = 1.0;
+    std::vector<PartInfo> parts;
+    std::vector<ChannelInfo> channels;
+    std::vector<std::string> views; ///< of `multiView` or of the parts; empty for single-view files
+    /// 4x4 float attributes of the header by name (worldToCamera, worldToNDC, ...), element [row][column] as stored in
+    /// the file, that is for row vectors.
+    std::map<std::string, glm::dmat4> matrices;
+    std::map<std::string, double> numbers;      ///< scalar attributes (CameraFov, ...)
+    std::map<std::string, std::string> strings; ///< string attributes (arnold/color_space, ...)
+    std::vector<std::string> warnings;          ///< oddities met while reading the header, one line each
+};
+
+} // namespace clshade

@@ -1,0 +1,40 @@
+// The scalar reference: every model in double precision, written from models.md for a reader, sharing no code with the
+// kernels. It implements the pixel rules of host/gbuffer/frame.h.
+#pragma once
+
+#include "host/gbuffer/frame.h"
+
+#include <glm/glm.hpp>
+
+#include <vector>
+
+namespace clshade::reference {
+
+/// One pixel's result. Radiance before rounding to float.
+struct Pixel {
+    glm::dvec3 radiance{0.0};
+    double alpha = 0.0;
+    glm::dvec3 diffuse{0.0};
+    glm::dvec3 specular{0.0};
+    std::vector<glm::dvec3> lights; ///< per light, filled only if asked for
+    int material = -1;              ///< index of the material that claimed the pixel; -1: no surface
+    bool nonfinite = false;
+    bool clamped = false;
+    bool fractional_id = false;
+};
+
+/// Shades pixel (x, y), counted from the data window's top left corner.
+[[nodiscard]] Pixel shade_pixel(const Frame& frame, int x, int y, const AovSelection& aovs);
+
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<std::vector<double>> planes; ///< in the order of output_plane_names, width * height each, no padding
+    std::vector<int> material;               ///< per pixel, -1: no surface
+    PixelCounts counts;
+};
+
+/// Shades the whole frame on `threads` threads (rows in parallel; the result does not depend on it).
+[[nodiscard]] Image shade(const Frame& frame, const AovSelection& aovs, int threads);
+
+} // namespace clshade::reference

@@ -1,0 +1,163 @@
+// The scene as a user writes it (TOML, version = 1): value types only. No OpenCL, no image formats, no files but the
+// scene's own.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clshade {
+
+/// Where in the scene file something was written; line 0 means "not from a file" (default scene, --set).
+struct SourceLocation {
+    std::string file;
+    int line = 0;
+    int column = 0;
+};
+
+/// What is done to a channel after scale and offset (interface, "Scene file").
+enum class Conversion {
+    none,
+    ggx_roughness,    ///< n = 2/r^4 - 2
+    smoothness,       ///< r = 1 - x, then as ggx_roughness
+    oren_nayar_sigma, ///< n = 2/x^2
+};
+
+/// A material parameter: three constants, or the planes of a role or layer.
+struct Parameter {
+    /// Empty: `constant` holds. One entry: a role's name, a layer's name or a full channel name. Three entries: three
+    /// single channels.
+    std::vector<std::string> channels;
+    glm::dvec3 constant{0.0}; ///< a scalar parameter stands in all three components
+    double scale = 1.0;       ///< applied to the channel, before `convert`
+    double offset = 0.0;
+    Conversion convert = Conversion::none;
+    SourceLocation where;
+
+    [[nodiscard]] bool is_constant() const { return channels.empty(); }
+    [[nodiscard]] static Parameter of(double value) { return of(glm::dvec3(value)); }
+    [[nodiscard]] static Parameter of(glm::dvec3 value) {
+        Parameter p;
+        p.constant = value;
+        return p;
+    }
+    [[nodiscard]] static Parameter from(std::string channel, Conversion convert = Conversion::none) {
+        Parameter p;
+        p.channels = {std::move(channel)};
+        p.convert = convert;
+        return p;
+    }
+};
+
+/// Specular lobes that exist today. The parser also knows the names of those still to come and refuses them.
+enum class SpecularModel {
+    none,              ///< leaves the diffuse part unweighted
+    blinn_phong,       ///< models.md section 2
+    blinn_phong_exact, ///< models.md section 1
+};
+
+enum class DiffuseModel {
+    none,
+    lambert,
+    oren_nayar,              ///< 8.6, the deck's improved qualitative model
+    oren_nayar_full,         ///< 8.1
+    oren_nayar_qualitative,  ///< 8.2
+    oren_nayar_simplified_1, ///< 8.3
+    oren_nayar_simplified_2, ///< 8.4
+    oren_nayar_shininess,    ///< 8.5
+};
+
+/// Names as written in a scene file, in the order of the enumerations.
+[[nodiscard]] std::string_view name_of(SpecularModel model);
+[[nodiscard]] std::string_view name_of(DiffuseModel model);
+[[nodiscard]] std::string_view name_of(Conversion convert);
+
+struct Specular {
+    SpecularModel model = SpecularModel::blinn_phong;
+    Parameter f0 = Parameter::of(0.04);       ///< 0..1 per channel; `ior` in the scene file sets ((n-1)/(n+1))^2
+    Parameter shininess = Parameter::of(64.0); ///< 0..65536
+};
+
+struct Diffuse {
+    DiffuseModel model = DiffuseModel::lambert;
+    Parameter albedo = Parameter::of(0.5);  ///< 0..1 per channel
+    std::optional<Parameter> shininess; ///< absent: the specular shininess of the same layer
+};
+
+/// A material: today a stack of one layer.
+struct Material {
+    std::string name = "default";
+    std::vector<std::int64_t> ids; ///< values of the material_id plane; empty only for `default`
+    Specular specular;
+    Diffuse diffuse;
+    SourceLocation where;
+};
+
+enum class LightType { distant, point, spot };
+
+struct Light {
+    std::string name;
+    LightType type = LightType::distant;
+    /// Direction the light travels, any length. World space, or camera space (+X right, +Y up, looks along -Z) for the
+    /// lights of the default scene.
+    glm::dvec3 direction{0.0, 0.0, -1.0};
+    bool in_camera_space = false;
+    glm::dvec3 position{0.0}; ///< world space, scene units
+    /// distant: irradiance E_0 on a surface facing the light; point, spot: intensity, E_0 = power / distance^2.
+    /// Colour is multiplied in.
+    glm::dvec3 power{1.0};
+    double cone_angle = 0.0;    ///< spot: half-angle from the axis in radians, (0, pi]; no light beyond
+    double cone_softness = 0.0; ///< 0..1: smoothstep (over the angle) from cone_angle (1 - softness) to cone_angle
+    SourceLocation where;
+};
+
+/// How a camera sees: what is known beyond its place.
+enum class Lens { unknown, fov_x, fov_y, orthographic };
+
+struct Camera {
+    glm::dmat4 matrix_world{1.0}; ///< camera to world, column vectors; looks along -Z, +Y up
+    Lens lens = Lens::unknown;
+    double lens_value = 0.0; ///< full field of view in radians, or the orthographic height in scene units
+    SourceLocation where;
+};
+
+enum class NormalSpace { world, camera };
+enum class NormalEncoding { signed_values, unorm };
+enum class DepthKind { planar, ray };
+
+/// [gbuffer]: overrides of the automatic role detection, by role name.
+struct RoleOverride {
+    std::string role;
+    /// One entry: a layer (suffixes are found) or a full channel name; more: single channels. The one entry "none"
+    /// leaves the role empty.
+    std::vector<std::string> channels;
+    SourceLocation where;
+};
+
+struct GBufferSettings {
+    std::vector<RoleOverride> roles;
+    NormalSpace normal_space = NormalSpace::world;
+    NormalEncoding normal_encoding = NormalEncoding::signed_values;
+    DepthKind depth_kind = DepthKind::planar;
+};
+
+struct Scene {
+    std::string file; ///< empty for the default scene
+    std::optional<Camera> camera;
+    GBufferSettings gbuffer;
+    std::vector<Light> lights;
+    std::vector<Material> materials; ///< never empty; the first is `default`
+    /// No material was written: `default` is chosen from the roles the file has (albedo, f0, roughness or shininess).
+    bool automatic_material = false;
+    bool emission_mapped = false; ///< [gbuffer] names the emission role
+};
+
+/// The scene used without --scene: automatic material; key over the camera's left shoulder, fill and rim lights in
+/// camera space that stand in for the studio environment until image-based light exists.
+[[nodiscard]] Scene default_scene();
+
+} // namespace clshade

@@ -1,0 +1,103 @@
+// Shading a frame on a device: what to build, what to launch, in which pieces.
+#pragma once
+
+#include "host/device/device.h"
+#include "host/device/program.h"
+#include "host/gbuffer/frame.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clshade {
+
+struct ShaderOptions {
+    AovSelection aovs;
+    int lanes = 0;                    ///< 1, 4, 8, 16; 0: the best known for the device and driver
+    std::uint64_t max_memory = 0;     ///< bytes of device memory for planes; 0: what the device has
+    std::size_t pixels_per_launch = 0; ///< 0: automatic; tests force small bands
+};
+
+/// One launch's share of the time table.
+struct KernelTime {
+    std::string kernel; ///< stable key, e.g. "shade.blinn_phong.lambert.distant1"
+    double milliseconds = 0.0;
+    std::uint64_t bytes = 0; ///< planes read and written once
+};
+
+struct ShadedImage {
+    PlaneSlab planes; ///< in the order of output_plane_names
+    std::vector<std::string> plane_names;
+    PixelCounts counts;
+    std::vector<KernelTime> kernel_times;
+    std::string identity; ///< of the program that shaded it
+    bool built_from_cache = false;
+    double build_milliseconds = 0.0;
+    double transfer_milliseconds = 0.0;
+};
+
+/// A frame bound to the device: planes uploaded, constants written, arguments set; launch as often as you like.
+/// Refers to the frame it was made from, which must outlive it. Move-only.
+class PreparedFrame {
+  public:
+    ~PreparedFrame();
+    PreparedFrame(PreparedFrame&&) noexcept;
+    PreparedFrame& operator=(PreparedFrame&&) noexcept;
+    PreparedFrame(const PreparedFrame&) = delete;
+    PreparedFrame& operator=(const PreparedFrame&) = delete;
+
+    /// Enqueues the kernel over the whole frame and returns at once.
+    void launch();
+    /// Waits for the last launch; its duration on the device.
+    [[nodiscard]] double wait_milliseconds();
+    /// Input planes read plus output planes written, each once, for the pixels of the picture.
+    [[nodiscard]] std::uint64_t bytes() const;
+    [[nodiscard]] int planes_read() const;
+    [[nodiscard]] int planes_written() const;
+    /// Stable key of the kernel: "shade.blinn_phong.lambert.distant1" (several materials: "mixed4").
+    [[nodiscard]] const std::string& key() const;
+    [[nodiscard]] const BuildReport& build() const;
+    /// Brings results to the host and gives them away.
+    [[nodiscard]] ShadedImage take();
+
+    struct State;
+    explicit PreparedFrame(std::unique_ptr<State> state);
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+/// Builds one program per distinct structure (models, planes, light types, outputs, lanes) and keeps it; frames with
+/// the same structure reuse it. Parameter and light values are run-time constants.
+class Shader {
+  public:
+    Shader(Device& device, SourceSet kernels, ProgramCache cache, ShaderOptions options);
+
+    /// Shades a frame, in bands where it does not fit the device or the memory limit. Throws RuntimeFailure. The
+    /// result does not depend on bands.
+    [[nodiscard]] ShadedImage shade(Frame& frame);
+    /// For benches: the whole frame in one launch. Throws RuntimeFailure if it does not fit.
+    [[nodiscard]] PreparedFrame prepare(Frame& frame);
+
+    /// The generated part of the program for a frame, for people to read, and the options of its build.
+    [[nodiscard]] std::string generated_source(const Frame& frame) const;
+    [[nodiscard]] std::string build_options(const Frame& frame) const;
+    [[nodiscard]] int lanes() const { return lanes_; }
+
+  private:
+    const Program& program_for(const Frame& frame);
+
+    Device* device_;
+    SourceSet kernels_;
+    ProgramCache cache_;
+    ShaderOptions options_;
+    int lanes_;
+    std::map<std::string, Program> programs_; ///< by generated source and options
+};
+
+/// The vector width `--lanes auto` stands for: what the device prefers, 1 on GPUs.
+[[nodiscard]] int automatic_lanes(const DeviceInfo& device);
+
+} // namespace clshade
