@@ -145,14 +145,27 @@ struct GBufferSettings {
     DepthKind depth_kind = DepthKind::planar;
 };
 
+/// Parameters of the `default` material (materials[0]) that nobody wrote and that are chosen from the roles the file
+/// has. Where a flag is set, the parameter in materials[0] holds only the last fallback:
+///   albedo: albedo role, else 0.5.   f0: F0 role, else 0.04.
+///   shininess (of the specular lobe): roughness role by ggx_roughness, else shininess role, else 64.
+struct AutomaticParameters {
+    bool albedo = false;
+    bool f0 = false;
+    bool shininess = false;
+};
+
 struct Scene {
     std::string file; ///< empty for the default scene
     std::optional<Camera> camera;
     GBufferSettings gbuffer;
     std::vector<Light> lights;
     std::vector<Material> materials; ///< never empty; the first is `default`
-    /// No material was written: `default` is chosen from the roles the file has (albedo, f0, roughness or shininess).
+    /// No material was written, neither in the file nor by --set or --model: all flags of `automatic` are set. When
+    /// only --set or --model touch `default` of a scene without materials, this is false and `automatic` keeps the flags
+    /// of what they left alone. Binding needs `automatic` only.
     bool automatic_material = false;
+    AutomaticParameters automatic;
     bool emission_mapped = false; ///< [gbuffer] names the emission role
 };
 
