@@ -1,0 +1,123 @@
+// `clshade bench`: every kernel timed with the limit and the rivals beside it, in one process and in turns.
+//
+// METHOD. All contestants of one picture size (our kernels, the streams, the C++ rivals) read the same planes and run
+// in turns, A B C ... A B C ..., first two warm-up rounds, then at least BenchOptions::rounds rounds and until the time
+// budget is spent. Absolute times drift with the machine, so a ratio is taken inside each round and the median of these
+// paired ratios is what counts. OpenCL kernels are timed on the device (event profiling), C++ rivals by a steady clock
+// around the call on the host: they pay their thread start, and no launch. Contestants that take over ten times as long
+// as the kernel they stand against (naive, reference) run in fewer rounds; their ratio is the median over those. Before
+// anything is timed, every rival's picture is compared with the device's: one that computes something else is an error.
+#pragma once
+
+#include "host/device/device.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clshade {
+
+enum class BenchStatus { ok, skipped, unsupported, error };
+/// As in the JSON report: "ok", "skipped", "unsupported", "error".
+[[nodiscard]] std::string_view name_of(BenchStatus status);
+
+/// One rival of one row. Names: "stream_opencl" (same bytes through a kernel), "stream_cpp" (same bytes through C++
+/// non-temporal stores), "openmp_simd" (the compiler's vectorised C++ loop), "hand_simd" (hand-vectorised C++),
+/// "naive_opencl" (image2d_t and pow), "reference" (scalar double precision, one thread), or the key of another row
+/// that this one is measured against.
+struct RivalResult {
+    std::string name;
+    BenchStatus status = BenchStatus::ok;
+    std::string reason; ///< why not, unless ok
+    double median_ms = 0.0;
+    double min_ms = 0.0;
+    double ratio = 0.0;     ///< median over the rounds of (row's kernel time / rival's time): below 1 the kernel wins
+    double max_error = 0.0; ///< largest difference of the rival's picture from the device's, relative to 1e-3 + value
+    int rounds = 0;
+};
+
+/// One row of the table: one kernel at one size.
+struct BenchResult {
+    std::string key; ///< stable: "shade.blinn_phong.lambert.distant1.3840x2160"; JSON `kernel`
+    BenchStatus status = BenchStatus::ok;
+    std::string reason; ///< why not, unless ok
+    int width = 0;
+    int height = 0;
+    int lights = 0;
+    int environments = 0;
+    int layers = 1;
+    int lanes = 0;
+    int rounds = 0;
+    double median_ms = 0.0;
+    double min_ms = 0.0;
+    double spread = 0.0;          ///< (90th - 10th percentile) / median
+    double bytes_per_pixel = 0.0; ///< planes read and written, each once
+    double mpix_per_s = 0.0;
+    double gb_per_s = 0.0;        ///< 1e9 bytes per second, from bytes_per_pixel
+    double build_cold_ms = 0.0;   ///< into an empty binary cache
+    double build_cached_ms = 0.0; ///< from that cache
+    std::vector<RivalResult> against;
+};
+
+/// A row of the deck's direct-light tables (models.md section 13) beside our own.
+struct DeckRow {
+    std::string name;     ///< "Blinn-Oren-Nayar, one light"
+    std::string baseline; ///< "Blinn-Lambert, one light"
+    double deck_ratio = 1.0;
+    BenchStatus status = BenchStatus::ok;
+    std::string reason;
+    std::optional<double> ratio; ///< ours, paired by rounds; only if ok
+};
+
+struct BenchReport {
+    std::vector<BenchResult> results;
+    std::vector<DeckRow> deck;
+};
+
+struct BenchOptions {
+    std::string filter; ///< regular expression (ECMAScript) searched in the key; empty: every row
+    int width = 0;      ///< 0: each row's own size; else every row at this size
+    int height = 0;
+    int rounds = 15;      ///< at least this many rounds
+    double seconds = 1.5; ///< time budget per row; a group of rows that run in turns has the sum
+    std::uint64_t seed = 1;
+    int threads = 0; ///< of the C++ rivals; 0: as many as the device has compute units
+    int lanes = 0;   ///< 1, 4, 8, 16; 0: the best known for the device
+    std::filesystem::path kernel_dir;
+    bool quick = false; ///< small pictures, three rounds, no 3840x2160: to see that everything runs
+};
+
+/// Told before each step: what is being done, and how many of the steps are done.
+using BenchProgress = std::function<void(const std::string& what, int done, int total)>;
+
+/// Keys of all rows that the options choose, in the order of the report. Throws UsageError for a filter that is not a
+/// regular expression.
+[[nodiscard]] std::vector<std::string> benchmark_keys(const BenchOptions& options);
+
+/// Runs the rows. A row that fails has status error and the reason; the others run on. Throws UsageError for a bad
+/// filter, or one that no key matches (naming the keys).
+[[nodiscard]] BenchReport run_benchmarks(Device& device, const BenchOptions& options,
+                                         const BenchProgress& progress = {});
+
+struct LaneTime {
+    int lanes = 1;
+    BenchStatus status = BenchStatus::ok;
+    std::string reason;
+    double median_ms = 0.0;
+};
+
+struct LaneTuning {
+    int best = 1;                ///< the width with the smallest sum of paired ratios over the tuning rows
+    std::vector<LaneTime> times; ///< 1, 4, 8, 16 lanes
+};
+
+/// Measures the vector widths on the one-light and the eight-light kernel at 1280x720 (options.width x height if
+/// given). Throws RuntimeFailure if no width builds.
+[[nodiscard]] LaneTuning tune_lanes(Device& device, const BenchOptions& options = {},
+                                    const BenchProgress& progress = {});
+
+} // namespace clshade
