@@ -25,7 +25,8 @@ struct ModelInfo {
     std::span<const ParameterInfo> parameters;
 };
 
-/// All models, available ones first in each kind.
+/// All models, specular before diffuse, available ones first in each kind. "none", the absence of a lobe, is not
+/// listed.
 [[nodiscard]] std::span<const ModelInfo> model_catalog();
 
 } // namespace clshade

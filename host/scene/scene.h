@@ -12,12 +12,16 @@
 
 namespace clshade {
 
-/// Where in the scene file something was written; line 0 means "not from a file" (default scene, --set).
+/// Where in the scene file something was written. Line 0: not from a file; `file` is then the --set or --model
+/// argument, or empty for the default scene.
 struct SourceLocation {
     std::string file;
     int line = 0;
     int column = 0;
 };
+
+/// "FILE:LINE:COL: " to start a message with; "FILE: " for line 0, empty without a file.
+[[nodiscard]] std::string message_prefix(const SourceLocation& where);
 
 /// What is done to a channel after scale and offset (interface, "Scene file").
 enum class Conversion {
@@ -78,14 +82,14 @@ enum class DiffuseModel {
 
 struct Specular {
     SpecularModel model = SpecularModel::blinn_phong;
-    Parameter f0 = Parameter::of(0.04);       ///< 0..1 per channel; `ior` in the scene file sets ((n-1)/(n+1))^2
+    Parameter f0 = Parameter::of(0.04);        ///< 0..1 per channel; `ior` in the scene file sets ((n-1)/(n+1))^2
     Parameter shininess = Parameter::of(64.0); ///< 0..65536
 };
 
 struct Diffuse {
     DiffuseModel model = DiffuseModel::lambert;
-    Parameter albedo = Parameter::of(0.5);  ///< 0..1 per channel
-    std::optional<Parameter> shininess; ///< absent: the specular shininess of the same layer
+    Parameter albedo = Parameter::of(0.5); ///< 0..1 per channel
+    std::optional<Parameter> shininess;    ///< absent: the specular shininess of the same layer
 };
 
 /// A material: today a stack of one layer.
@@ -161,9 +165,9 @@ struct Scene {
     GBufferSettings gbuffer;
     std::vector<Light> lights;
     std::vector<Material> materials; ///< never empty; the first is `default`
-    /// No material was written, neither in the file nor by --set or --model: all flags of `automatic` are set. When
-    /// only --set or --model touch `default` of a scene without materials, this is false and `automatic` keeps the flags
-    /// of what they left alone. Binding needs `automatic` only.
+    /// The file has no [material.default] and neither --set nor --model touch it: all flags of `automatic` are set.
+    /// Where only --set or --model touch it, this is false and `automatic` keeps the flags of what they left alone.
+    /// Binding needs `automatic` only.
     bool automatic_material = false;
     AutomaticParameters automatic;
     bool emission_mapped = false; ///< [gbuffer] names the emission role

@@ -15,7 +15,17 @@ namespace clshade {
 /// rules; `model` (may be empty) is the argument of --model, short for the specular or diffuse model of `default`.
 /// Throws UsageError "FILE:LINE:COL: ..." for syntax, unknown keys (with a suggestion), wrong types, values out of
 /// range, NaN, duplicate ids, a singular camera, and for names of models, presets and sections that are not built yet;
-/// RuntimeFailure if the file cannot be read.
+/// also UsageError if the file cannot be read.
+///
+/// What is left out:
+///   light.name: "light1", "light2", ... by place; color: 1; cone_softness: 0
+///   specular.model: blinn_phong; f0: 0.04; shininess: 64.   diffuse.model: lambert; albedo: 0.5;
+///   diffuse.shininess: the specular shininess (which must then be written if the specular model is "none")
+///   the table `specular` or `diffuse` of a material that has the other one: model "none" for that part
+///   [material.default]: chosen from the roles of the G-buffer (Scene::automatic)
+///
+/// Overrides: the value is TOML, or a bare word. Tables on the way are created; a list of tables is entered by index
+/// from 0 or, for lights, by name ("light.key.irradiance=5", "light.0.irradiance=5").
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
                                std::string_view model);
 
@@ -23,7 +33,7 @@ namespace clshade {
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::string& file, std::span<const std::string> overrides,
                                 std::string_view model);
 
-/// The default scene with overrides (no --scene given).
+/// The default scene with overrides (no --scene given). Directions of its lights (key, fill, rim) stay in camera space.
 [[nodiscard]] Scene default_scene(std::span<const std::string> overrides, std::string_view model);
 
 } // namespace clshade

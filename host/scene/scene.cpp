@@ -1,0 +1,63 @@
+#include "host/scene/scene.h"
+
+#include <fmt/format.h>
+
+namespace clshade {
+
+std::string message_prefix(const SourceLocation& where) {
+    if (where.file.empty()) {
+        return {};
+    }
+    return where.line > 0 ? fmt::format("{}:{}:{}: ", where.file, where.line, where.column)
+                          : fmt::format("{}: ", where.file);
+}
+
+std::string_view name_of(SpecularModel model) {
+    switch (model) {
+    case SpecularModel::none:
+        return "none";
+    case SpecularModel::blinn_phong:
+        return "blinn_phong";
+    case SpecularModel::blinn_phong_exact:
+        return "blinn_phong_exact";
+    }
+    return {};
+}
+
+std::string_view name_of(DiffuseModel model) {
+    switch (model) {
+    case DiffuseModel::none:
+        return "none";
+    case DiffuseModel::lambert:
+        return "lambert";
+    case DiffuseModel::oren_nayar:
+        return "oren_nayar";
+    case DiffuseModel::oren_nayar_full:
+        return "oren_nayar_full";
+    case DiffuseModel::oren_nayar_qualitative:
+        return "oren_nayar_qualitative";
+    case DiffuseModel::oren_nayar_simplified_1:
+        return "oren_nayar_simplified_1";
+    case DiffuseModel::oren_nayar_simplified_2:
+        return "oren_nayar_simplified_2";
+    case DiffuseModel::oren_nayar_shininess:
+        return "oren_nayar_shininess";
+    }
+    return {};
+}
+
+std::string_view name_of(Conversion convert) {
+    switch (convert) {
+    case Conversion::none:
+        return "none";
+    case Conversion::ggx_roughness:
+        return "ggx_roughness";
+    case Conversion::smoothness:
+        return "smoothness";
+    case Conversion::oren_nayar_sigma:
+        return "oren_nayar_sigma";
+    }
+    return {};
+}
+
+} // namespace clshade

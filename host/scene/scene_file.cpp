@@ -1,0 +1,177 @@
+#include "host/scene/scene_file.h"
+
+#include "host/scene/scene_camera.h"
+#include "host/scene/scene_lights.h"
+#include "host/scene/scene_materials.h"
+#include "host/scene/scene_overrides.h"
+#include "host/scene/toml_reader.h"
+#include "host/scene/toml_value.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+namespace clshade {
+
+namespace {
+
+constexpr std::array<std::string_view, 8> scene_keys{"version",     "units",  "camera", "gbuffer",
+                                                     "environment", "output", "light",  "material"};
+constexpr std::array<std::string_view, 1> output_keys{"background"};
+
+/// Far beyond any scene written by hand or by a script; keeps --scene /dev/zero from eating the memory.
+constexpr std::size_t largest_file = std::size_t{16} << 20U;
+
+/// Key over the left shoulder, slightly warm; a weak cool fill from the right; a rim light from behind and above.
+/// Levels: a grey (0.5) surface that faces the key comes out at about 0.5. Directions are in camera space.
+constexpr std::string_view default_scene_text = R"(version = 1
+[[light]]
+name = "key"
+type = "distant"
+direction = [0.45, -0.55, -0.70]
+irradiance = 3.0
+color = [1.0, 0.96, 0.90]
+[[light]]
+name = "fill"
+type = "distant"
+direction = [-0.80, -0.15, -0.58]
+irradiance = 0.7
+color = [0.80, 0.90, 1.0]
+[[light]]
+name = "rim"
+type = "distant"
+direction = [-0.35, -0.60, 0.72]
+irradiance = 1.4
+)";
+
+void check_version(const TomlTable& root, const std::string& file) {
+    const TomlEntry* version = root.find("version");
+    if (version == nullptr) {
+        fail({file, 1, 1}, "the scene lacks 'version'; write version = 1 in its first line");
+    }
+    const auto* number = std::get_if<std::int64_t>(&version->value.data);
+    if (number == nullptr) {
+        fail_type(version->value, "version", "the whole number 1");
+    }
+    if (*number != 1) {
+        fail(version->value.where,
+             fmt::format("scene version {} is unknown to this clshade; write version = 1", *number));
+    }
+}
+
+void refuse_background(const TomlEntry& output) {
+    const TableReader table(output.value, "[output]", output_keys);
+    if (const TomlEntry* background = table.find("background")) {
+        if (as_bool(background->value, "background")) {
+            fail_not_built(background->where, "'background' of [output]", "remove the key or set it to false");
+        }
+    }
+}
+
+/// Whether [gbuffer] names an emission layer.
+bool maps_emission(const GBufferSettings& settings) {
+    return std::any_of(settings.roles.begin(), settings.roles.end(), [](const RoleOverride& role) {
+        return role.role == "emission" && role.channels != std::vector<std::string>{"none"};
+    });
+}
+
+bool has_default_material(const TomlTable& root) {
+    const TomlEntry* material = root.find("material");
+    const TomlTable* table = material == nullptr ? nullptr : material->value.table();
+    return table != nullptr && table->find("default") != nullptr;
+}
+
+Scene read_tree(TomlTable root, const std::string& file, std::span<const std::string> overrides,
+                std::string_view model) {
+    const bool default_written = has_default_material(root);
+    if (!model.empty()) {
+        apply_model(root, model);
+    }
+    for (const std::string& assignment : overrides) {
+        apply_override(root, assignment);
+    }
+    check_version(root, file);
+    const TableReader table(root, {file, 1, 1}, "the scene", scene_keys);
+    if (const TomlEntry* units = table.find("units")) {
+        (void)as_text(units->value, "units"); // a note for people: nothing in shading depends on it
+    }
+    if (const TomlEntry* environment = table.find("environment")) {
+        fail_not_built(environment->where, "[environment]", "remove the table and light the scene with [[light]]");
+    }
+    if (const TomlEntry* output = table.find("output")) {
+        refuse_background(*output);
+    }
+    Scene scene;
+    scene.file = file;
+    if (const TomlEntry* camera = table.find("camera")) {
+        scene.camera = read_camera(*camera);
+    }
+    if (const TomlEntry* gbuffer = table.find("gbuffer")) {
+        scene.gbuffer = read_gbuffer(*gbuffer);
+    }
+    scene.emission_mapped = maps_emission(scene.gbuffer);
+    if (const TomlEntry* lights = table.find("light")) {
+        scene.lights = read_lights(lights->value);
+    }
+    if (scene.lights.empty() && !scene.emission_mapped) {
+        fail({file, 1, 1}, "the scene has no light and would be black; add a [[light]], or map the emission role in "
+                           "[gbuffer]");
+    }
+    read_materials(table.find("material"), default_written, scene);
+    return scene;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) {
+        fail({file.string(), 0, 0}, "the scene is a folder; name a TOML file");
+    }
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) {
+        fail({file.string(), 0, 0}, fmt::format("cannot open the scene ({}); check the path of --scene",
+                                                std::generic_category().message(errno)));
+    }
+    std::string text;
+    std::array<char, 65536> block{};
+    while (stream && text.size() <= largest_file) {
+        stream.read(block.data(), block.size());
+        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    }
+    if (stream.bad()) {
+        fail({file.string(), 0, 0}, "reading the scene failed; check the file");
+    }
+    if (text.size() > largest_file) {
+        fail({file.string(), 0, 0}, "the scene is larger than 16 MiB; name a TOML file");
+    }
+    return text;
+}
+
+} // namespace
+
+Scene parse_scene(std::string_view text, const std::string& file, std::span<const std::string> overrides,
+                  std::string_view model) {
+    return read_tree(parse_toml(text, file), file, overrides, model);
+}
+
+Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides, std::string_view model) {
+    return parse_scene(read_text(file), file.string(), overrides, model);
+}
+
+Scene default_scene(std::span<const std::string> overrides, std::string_view model) {
+    Scene scene = read_tree(parse_toml(default_scene_text, "default scene"), "", overrides, model);
+    for (Light& light : scene.lights) {
+        light.in_camera_space = true;
+        light.where.file.clear();
+    }
+    return scene;
+}
+
+Scene default_scene() {
+    return default_scene({}, {});
+}
+
+} // namespace clshade
