@@ -1,0 +1,44 @@
+// The C++ rivals on the planes of a bench frame.
+#pragma once
+
+#include "bench/simd/rivals.h"
+#include "bench/worker_pool.h"
+#include "host/base/plane_slab.h"
+#include "host/gbuffer/frame.h"
+
+#include <string_view>
+#include <vector>
+
+namespace clshade {
+
+/// Lights of a frame as the C++ rivals take them. Throws std::invalid_argument if one is not distant.
+[[nodiscard]] std::vector<rivals::DistantLight> distant_lights(const Frame& frame);
+
+/// Runs the rivals with the widest instructions the processor has. Refers to the frame, whose planes must stay; the
+/// lights are handed over so that the frame's own may change.
+class HostRivals {
+  public:
+    /// threads: 0 stands for all processors.
+    HostRivals(const Frame& frame, int threads);
+
+    // Each does its work once and returns its milliseconds. planes_out: 3, or 4 with alpha.
+    double openmp_simd(const std::vector<rivals::DistantLight>& lights, int planes_out);
+    double hand_simd(const std::vector<rivals::DistantLight>& lights, int planes_out);
+    double stream(int planes_in, int planes_out);
+
+    /// What the last one wrote: R, G, B, alpha.
+    [[nodiscard]] const PlaneSlab& output() const { return output_; }
+    [[nodiscard]] int threads() const { return pool_.threads(); }
+    /// "x86-64-v4", "x86-64-v3" or "baseline".
+    [[nodiscard]] std::string_view instruction_set() const;
+
+  private:
+    [[nodiscard]] rivals::Planes planes(int planes_in, int planes_out);
+    double shade(rivals::ShadeRange work, const std::vector<rivals::DistantLight>& lights, int planes_out);
+
+    const Frame* frame_;
+    PlaneSlab output_;
+    WorkerPool pool_;
+};
+
+} // namespace clshade

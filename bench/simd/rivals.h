@@ -1,0 +1,39 @@
+// The C++ rivals, compiled once per instruction set. This header and the files that implement it include nothing with
+// inline functions of the standard library: a copy of one compiled for AVX-512 must not end up in the rest of the
+// program.
+#pragma once
+
+#include <stddef.h> // NOLINT(modernize-deprecated-headers,hicpp-deprecated-headers): see above
+
+namespace clshade::rivals {
+
+/// Planes of the bench frame. Plane p of the input begins at in + p * in_stride; all are padded to 16 floats and lie on
+/// 64-byte boundaries. Order: normal 0-2, position 3-5, albedo 6-8, f0 9-11, shininess 12.
+/// Outputs: R, G, B and, if planes_out is 4, alpha.
+struct Planes {
+    const float* in = nullptr;
+    size_t in_stride = 0;
+    int planes_in = 0;
+    float* out = nullptr;
+    size_t out_stride = 0;
+    int planes_out = 0;
+};
+
+/// A distant light: unit vector to the light, irradiance.
+struct DistantLight {
+    float to_light[3];
+    float irradiance[3];
+};
+
+struct Scene {
+    float eye[3];
+    const DistantLight* lights = nullptr;
+    int light_count = 0;
+};
+
+/// Shades pixels [begin, end), both multiples of 16 (with padding).
+using ShadeRange = void (*)(const Planes& planes, const Scene& scene, size_t begin, size_t end);
+/// Moves the same bytes: every output plane k gets (k + 1) times the sum of the input planes.
+using StreamRange = void (*)(const Planes& planes, size_t begin, size_t end);
+
+} // namespace clshade::rivals
