@@ -72,12 +72,18 @@ struct BuildReport {
 /// A built program. Copyable handle.
 class Program {
   public:
-    /// Loads from the cache or builds `main` of `sources` with `options`, then stores. Throws RuntimeFailure with the
-    /// device's name and the build log (real file names and lines).
+    /// Loads from the cache or builds `main` of `sources` with "-cl-std=CL1.2" and `options`. Throws RuntimeFailure
+    /// with the device's name and the build log (real file names and lines). Nothing is stored yet: see store_binary().
     Program(Device& device, const SourceSet& sources, const std::string& main, const std::string& options,
             const ProgramCache& cache);
 
     [[nodiscard]] const BuildReport& report() const;
+    /// Stores the program in its cache. Call it when a frame's launches have finished: PoCL compiles a kernel to
+    /// machine code at its first launch, and a binary fetched earlier would make the next process compile again (40 ms
+    /// and more for each kernel). Calls without a new kind of launch (kernel, local size, offset or none, wide or
+    /// narrow grid) since the last do nothing, so it may be called after every frame. Failure to store is logged, never
+    /// an error.
+    void store_binary();
     /// The built device binary (for tests that count vector instructions).
     [[nodiscard]] std::vector<std::byte> binary() const;
 
@@ -96,10 +102,8 @@ class Kernel {
 
     void set_argument(unsigned index, const Buffer& buffer);
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    void set_argument(unsigned index, const T& value) {
-        set_bytes(index, std::as_bytes(std::span(&value, 1)));
-    }
+    requires std::is_trivially_copyable_v<T>
+    void set_argument(unsigned index, const T& value) { set_bytes(index, std::as_bytes(std::span(&value, 1))); }
 
     /// Enqueues on the device's queue over [offset, offset + global) work-items in groups of `local`; global must be a
     /// multiple of local. Returns at once.

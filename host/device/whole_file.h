@@ -1,0 +1,13 @@
+// Private to host/device: reading a file at once.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace clshade {
+
+/// The content of a file; nothing if it cannot be opened or read.
+[[nodiscard]] std::optional<std::string> read_whole_file(const std::filesystem::path& path);
+
+} // namespace clshade
