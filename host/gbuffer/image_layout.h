@@ -23,8 +23,16 @@ struct Window {
 
 enum class SampleType { half, float32, uint32 };
 
-/// One channel of one part. `name` is what users write: the channel's own name, or "part.channel" where the part's name
-/// is what tells equally named channels apart (Nuke's "split by layer", Karma's one part per plane).
+/// One channel of one part. `name` is what users write, unique over the file:
+/// - Parts: the channel's own name, or "layer.channel" where the part's name is what tells channels apart (Nuke's
+/// "split
+///   by layer", Karma's one part per plane). layer = part name without the ".view" that Nuke appends. Not added to
+///   names that have a layer already (unless two parts claim one), to the main picture (part "rgba"), to a channel
+///   named like its part (Arnold's "id"), and to the single letters of an image spread over parts (R here, G there).
+/// - Views (only in files with two or more; `view` then is "" for layers that all views share): the view's component
+///   ("ViewLayer.Depth.left.Z") is dropped from the names of the default view, the first, and from others where the
+///   shorter name is free. Where it is not, it stands next to last, also for channels whose view is told by their part:
+///   "ViewLayer.Depth.Z" and "ViewLayer.Depth.right.Z", "R" and "right.R".
 struct ChannelInfo {
     std::string name;      ///< unique over the file; includes the layer
     std::string file_name; ///< the channel's name inside its part

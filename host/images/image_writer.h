@@ -15,9 +15,9 @@
 namespace clshade {
 
 struct ExrSettings {
-    bool half = true;                 ///< -d half|float
-    std::string compression = "zip";  ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab
-    std::optional<double> level;      ///< zip: 1..9, dwa: lossiness
+    bool half = true;                ///< -d half|float
+    std::string compression = "zip"; ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab
+    std::optional<double> level;     ///< zip: 1..9, dwa: lossiness
     int threads = 1;
 };
 
@@ -34,8 +34,8 @@ struct OutputImage {
     Window display_window;
     double pixel_aspect = 1.0;
     std::vector<OutputChannel> channels;
-    std::map<std::string, std::string> attributes;      ///< strings
-    std::map<std::string, glm::dmat4> matrices;         ///< element [row][column] as stored (row vectors)
+    std::map<std::string, std::string> attributes; ///< strings
+    std::map<std::string, glm::dmat4> matrices;    ///< element [row][column] as stored (row vectors)
 };
 
 /// Throws UsageError for an extension other than .exr and .png, RuntimeFailure for a folder that does not exist or

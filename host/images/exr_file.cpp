@@ -1,0 +1,366 @@
+#include "host/images/exr_file.h"
+
+#include "host/base/error.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+
+namespace clshade {
+
+struct ExrFile::State {
+    std::string name;
+    int descriptor = -1;
+    std::uint64_t size = 0;
+    exr_context_t context = nullptr;
+    int parts = 0;
+    mutable std::mutex mutex;
+    std::string message;
+
+    State() = default;
+    ~State() {
+        if (context != nullptr) {
+            exr_finish(&context);
+        }
+        if (descriptor >= 0) {
+            ::close(descriptor);
+        }
+    }
+    State(const State&) = delete;
+    State& operator=(const State&) = delete;
+    State(State&&) = delete;
+    State& operator=(State&&) = delete;
+
+    /// Bytes read (fewer at the end of the file), or -1.
+    std::int64_t read(void* buffer, std::uint64_t count, std::uint64_t offset) const {
+        std::uint64_t done = 0;
+        while (done < count) {
+            const ssize_t got = ::pread(descriptor, static_cast<std::byte*>(buffer) + done, count - done,
+                                        static_cast<off_t>(offset + done));
+            if (got < 0 && errno == EINTR) {
+                continue;
+            }
+            if (got < 0) {
+                return -1;
+            }
+            if (got == 0) {
+                break;
+            }
+            done += static_cast<std::uint64_t>(got);
+        }
+        return static_cast<std::int64_t>(done);
+    }
+
+    static State* of(exr_const_context_t context) {
+        void* data = nullptr;
+        if (context == nullptr || exr_get_user_data(context, &data) != EXR_ERR_SUCCESS) {
+            return nullptr;
+        }
+        return static_cast<State*>(data);
+    }
+    static std::int64_t read_callback(exr_const_context_t /*context*/, void* data, void* buffer, std::uint64_t count,
+                                      std::uint64_t offset, exr_stream_error_func_ptr_t /*error*/) {
+        return static_cast<const State*>(data)->read(buffer, count, offset);
+    }
+    static std::int64_t size_callback(exr_const_context_t /*context*/, void* data) {
+        return static_cast<std::int64_t>(static_cast<const State*>(data)->size);
+    }
+    static void error_callback(exr_const_context_t context, exr_result_t /*code*/, const char* text) {
+        if (State* state = of(context); state != nullptr && text != nullptr) {
+            const std::lock_guard lock(state->mutex);
+            state->message = text;
+        }
+    }
+};
+
+namespace {
+
+constexpr std::array<std::uint8_t, 4> magic{0x76, 0x2f, 0x31, 0x01};
+constexpr std::string_view again = "render or copy the file again";
+
+/// The most unpacked bytes that one packed byte can stand for. Deflate reaches 1032 (zlib's documentation); PXR24 packs
+/// 4 bytes into 3 before it; PIZ codes runs of 255 two-byte values in about 10 bits; RLE packs 127 bytes into 2; B44A
+/// 32 bytes into 3; DWA keeps at least one deflated two-byte value of 64 pixels, up to 4 bytes each.
+double largest_ratio(exr_compression_t compression) {
+    switch (compression) {
+    case EXR_COMPRESSION_NONE:
+        return 1.0;
+    case EXR_COMPRESSION_RLE:
+        return 64.0;
+    case EXR_COMPRESSION_ZIPS:
+    case EXR_COMPRESSION_ZIP:
+        return 1032.0;
+    case EXR_COMPRESSION_PXR24:
+        return 2 * 1032.0;
+    case EXR_COMPRESSION_PIZ:
+        return 1024.0;
+    case EXR_COMPRESSION_B44:
+    case EXR_COMPRESSION_B44A:
+        return 11.0;
+    default:
+        return 128 * 1032.0;
+    }
+}
+/// Headers inside a chunk make small ones look better than the ratio; nothing this small can hurt.
+constexpr double ratio_slack = 65536.0;
+/// Tiles up to this many bytes are taken whatever the size of the image.
+constexpr double harmless_tile_bytes = 64.0 * 1024 * 1024;
+
+void check_plausible(const ExrFile& file, int part, const exr_chunk_info_t& chunk) {
+    const auto compression = static_cast<exr_compression_t>(chunk.compression);
+    const double limit = static_cast<double>(chunk.packed_size) * largest_ratio(compression) +
+                         (compression == EXR_COMPRESSION_NONE ? 0.0 : ratio_slack);
+    if (static_cast<double>(chunk.unpacked_size) > limit) {
+        file.fail(fmt::format("{}{}chunk {} claims {} bytes of pixels but holds {}; {}", file.part_label(part),
+                              file.part_label(part).empty() ? "" : ": ", chunk.idx, chunk.unpacked_size,
+                              chunk.packed_size, again));
+    }
+}
+
+[[noreturn]] void fail_incomplete(const ExrFile& file, int part, std::size_t missing, std::int64_t total,
+                                  const std::string& why) {
+    const std::string label = file.part_label(part);
+    if (static_cast<std::uint64_t>(total) * sizeof(std::uint64_t) > file.size()) {
+        file.fail(fmt::format("{}claims {} chunks of pixels, more than its {} bytes can hold; {}",
+                              label.empty() ? "" : label + ": ", total, file.size(), again));
+    }
+    file.fail(fmt::format("incomplete: {}{} of {} chunks of pixels missing or damaged ({}); {}",
+                          label.empty() ? "" : label + ": ", missing, total, why, again));
+}
+
+} // namespace
+
+std::string_view compression_name(exr_compression_t compression) {
+    switch (compression) {
+    case EXR_COMPRESSION_NONE:
+        return "none";
+    case EXR_COMPRESSION_RLE:
+        return "rle";
+    case EXR_COMPRESSION_ZIPS:
+        return "zips";
+    case EXR_COMPRESSION_ZIP:
+        return "zip";
+    case EXR_COMPRESSION_PIZ:
+        return "piz";
+    case EXR_COMPRESSION_PXR24:
+        return "pxr24";
+    case EXR_COMPRESSION_B44:
+        return "b44";
+    case EXR_COMPRESSION_B44A:
+        return "b44a";
+    case EXR_COMPRESSION_DWAA:
+        return "dwaa";
+    case EXR_COMPRESSION_DWAB:
+        return "dwab";
+    default:
+        return "unknown";
+    }
+}
+
+ExrFile::ExrFile(const std::filesystem::path& file) : state_(std::make_unique<State>()) {
+    state_->name = file.string();
+    struct stat info {};
+    if (::stat(file.c_str(), &info) != 0) {
+        fail(errno == ENOENT ? std::string("no such file; check the path")
+                             : fmt::format("cannot be read: {}; check the path", std::strerror(errno)));
+    }
+    if (S_ISDIR(info.st_mode)) {
+        fail("is a folder; name an .exr file in it");
+    }
+    if (!S_ISREG(info.st_mode)) {
+        fail("is not a regular file; name an .exr file");
+    }
+    state_->descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+    if (state_->descriptor < 0) {
+        fail(fmt::format("cannot be read: {}; check the permissions", std::strerror(errno)));
+    }
+    if (::fstat(state_->descriptor, &info) != 0) {
+        fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+    state_->size = static_cast<std::uint64_t>(info.st_size);
+    if (state_->size == 0) {
+        fail(fmt::format("is empty; {}", again));
+    }
+    std::array<std::uint8_t, 4> start{};
+    if (state_->read(start.data(), start.size(), 0) < 0) {
+        fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+    if (start != magic) {
+        fail("is not an OpenEXR file; give an .exr image");
+    }
+
+    exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    setup.error_handler_fn = &State::error_callback;
+    setup.user_data = state_.get();
+    setup.read_fn = &State::read_callback;
+    setup.size_fn = &State::size_callback;
+    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    const exr_result_t result = exr_start_read(&state_->context, state_->name.c_str(), &setup);
+    if (result != EXR_ERR_SUCCESS) {
+        const std::string said = last_message();
+        fail(fmt::format("the header is damaged or incomplete ({}); {}",
+                         said.empty() ? exr_get_default_error_message(result) : said.c_str(), again));
+    }
+    exr_get_count(state_->context, &state_->parts);
+    if (state_->parts < 1) {
+        fail("holds no image; give another file");
+    }
+}
+
+ExrFile::~ExrFile() = default;
+
+exr_const_context_t ExrFile::context() const {
+    return state_->context;
+}
+
+const std::string& ExrFile::name() const {
+    return state_->name;
+}
+
+std::uint64_t ExrFile::size() const {
+    return state_->size;
+}
+
+int ExrFile::part_count() const {
+    return state_->parts;
+}
+
+std::string ExrFile::part_label(int part) const {
+    if (state_->parts == 1) {
+        return "";
+    }
+    const char* part_name = nullptr;
+    if (exr_get_name(state_->context, part, &part_name) == EXR_ERR_SUCCESS && part_name != nullptr &&
+        *part_name != '\0') {
+        return fmt::format("part '{}'", part_name);
+    }
+    return fmt::format("part {}", part);
+}
+
+void ExrFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
+    const std::int64_t got = state_->read(bytes.data(), bytes.size(), offset);
+    if (got < 0) {
+        fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+    if (static_cast<std::size_t>(got) != bytes.size()) {
+        fail(fmt::format("ends before its pixels do; {}", again));
+    }
+}
+
+void ExrFile::fail(std::string_view what) const {
+    throw RuntimeFailure(fmt::format("{}: {}", state_->name, what));
+}
+
+std::string ExrFile::last_message() const {
+    const std::lock_guard lock(state_->mutex);
+    return state_->message;
+}
+
+void check_part(const ExrFile& file, int part) {
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    const exr_attr_chlist_t* channels = nullptr;
+    exr_attr_box2i_t window{};
+    if (exr_get_storage(file.context(), part, &storage) != EXR_ERR_SUCCESS ||
+        exr_get_channels(file.context(), part, &channels) != EXR_ERR_SUCCESS ||
+        exr_get_data_window(file.context(), part, &window) != EXR_ERR_SUCCESS) {
+        file.fail(fmt::format("the header is damaged ({}); {}", file.last_message(), again));
+    }
+    const std::string label = file.part_label(part);
+    const std::string where = label.empty() ? "" : label + ": ";
+    if (storage == EXR_STORAGE_DEEP_SCANLINE || storage == EXR_STORAGE_DEEP_TILED) {
+        file.fail(fmt::format("{}deep image: several samples a pixel cannot be shaded; flatten it first", where));
+    }
+    if (storage != EXR_STORAGE_SCANLINE && storage != EXR_STORAGE_TILED) {
+        file.fail(fmt::format("{}unknown kind of image part; write it as scan lines or tiles", where));
+    }
+    double pixel_bytes = 0.0;
+    for (int i = 0; i < channels->num_channels; ++i) {
+        const exr_attr_chlist_entry_t& channel = channels->entries[i];
+        if (channel.x_sampling != 1 || channel.y_sampling != 1) {
+            file.fail(fmt::format("{}channel '{}' is subsampled {}x{} (luminance and chroma); convert the file to "
+                                  "RGB at full resolution",
+                                  where, channel.name.str, channel.x_sampling, channel.y_sampling));
+        }
+        pixel_bytes += channel.pixel_type == EXR_PIXEL_HALF ? 2.0 : 4.0;
+    }
+    if (storage == EXR_STORAGE_TILED) {
+        std::int32_t tile_width = 0;
+        std::int32_t tile_height = 0;
+        exr_get_tile_sizes(file.context(), part, 0, 0, &tile_width, &tile_height);
+        const double tile = static_cast<double>(tile_width) * tile_height;
+        const double image = (static_cast<double>(window.max.x) - window.min.x + 1) *
+                             (static_cast<double>(window.max.y) - window.min.y + 1);
+        if (tile * pixel_bytes > harmless_tile_bytes && tile > 4 * image) {
+            file.fail(fmt::format("{}tiles of {}x{} pixels in an image of {}x{}; {}", where, tile_width, tile_height,
+                                  window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, again));
+        }
+    }
+}
+
+std::vector<exr_chunk_info_t> full_resolution_chunks(const ExrFile& file, int part) {
+    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+    exr_attr_box2i_t window{};
+    exr_get_storage(file.context(), part, &storage);
+    exr_get_data_window(file.context(), part, &window);
+
+    std::vector<exr_chunk_info_t> chunks;
+    std::size_t missing = 0;
+    std::string why;
+    const auto take = [&](exr_result_t result, const exr_chunk_info_t& chunk) {
+        if (result != EXR_ERR_SUCCESS) {
+            if (missing++ == 0) {
+                why = file.last_message();
+                why = why.empty() ? exr_get_default_error_message(result) : why;
+            }
+            return;
+        }
+        check_plausible(file, part, chunk);
+        chunks.push_back(chunk);
+    };
+    // The chunk table is read with the first chunk; a table that does not fit into the file fails there, before any
+    // memory is taken for it, and every further chunk would fail the same way.
+    constexpr std::size_t give_up = 64;
+
+    if (storage == EXR_STORAGE_TILED) {
+        std::int32_t tile_width = 0;
+        std::int32_t tile_height = 0;
+        if (exr_get_tile_sizes(file.context(), part, 0, 0, &tile_width, &tile_height) != EXR_ERR_SUCCESS ||
+            tile_width < 1 || tile_height < 1) {
+            file.fail(fmt::format("the tile description is damaged ({}); {}", file.last_message(), again));
+        }
+        const std::int64_t across = (std::int64_t{window.max.x} - window.min.x) / tile_width + 1;
+        const std::int64_t down = (std::int64_t{window.max.y} - window.min.y) / tile_height + 1;
+        for (std::int64_t y = 0; y < down && missing < give_up; ++y) {
+            for (std::int64_t x = 0; x < across && missing < give_up; ++x) {
+                exr_chunk_info_t chunk{};
+                take(exr_read_tile_chunk_info(file.context(), part, static_cast<int>(x), static_cast<int>(y), 0, 0,
+                                              &chunk),
+                     chunk);
+            }
+        }
+        if (missing > 0) {
+            fail_incomplete(file, part, missing, across * down, why);
+        }
+        return chunks;
+    }
+    std::int32_t lines = 1;
+    if (exr_get_scanlines_per_chunk(file.context(), part, &lines) != EXR_ERR_SUCCESS || lines < 1) {
+        file.fail(fmt::format("the header is damaged ({}); {}", file.last_message(), again));
+    }
+    for (std::int64_t y = window.min.y; y <= window.max.y && missing < give_up; y += lines) {
+        exr_chunk_info_t chunk{};
+        take(exr_read_scanline_chunk_info(file.context(), part, static_cast<int>(y), &chunk), chunk);
+    }
+    if (missing > 0) {
+        fail_incomplete(file, part, missing, (std::int64_t{window.max.y} - window.min.y) / lines + 1, why);
+    }
+    return chunks;
+}
+
+} // namespace clshade
