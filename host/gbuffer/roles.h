@@ -38,7 +38,8 @@ struct RoleChoice {
     Role role = Role::normal;
     std::vector<int> channels; ///< indices into ImageLayout::channels, in component order; empty: the role is empty
     std::string layer;         ///< layer name, for messages
-    std::string rule;          ///< why: "Blender pass name", "[gbuffer] in scene.toml", ...
+    /// Why: "Blender pass name", "[gbuffer] in scene.toml", ...; for an empty role, why nothing fits.
+    std::string rule;
     std::vector<std::string> runners_up; ///< layers that would also have fitted, best first
     /// Two layers fit equally well: the candidates. The role is then empty, and using it is an error that lists them.
     std::vector<std::string> ambiguous;
@@ -46,6 +47,7 @@ struct RoleChoice {
 
 struct RoleAssignment {
     std::array<RoleChoice, role_count> choices;
+    std::string view;                  ///< the stereo view chosen; empty in files without views
     std::vector<std::string> warnings; ///< half-float positions, DWA on data channels, colour space, ...
 
     [[nodiscard]] const RoleChoice& operator[](Role role) const { return choices[static_cast<std::size_t>(role)]; }
