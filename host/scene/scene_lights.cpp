@@ -118,7 +118,7 @@ Light read_light(const TomlValue& value, std::size_t index) {
 std::vector<Light> read_lights(const TomlValue& value) {
     const TomlArray* list = value.array();
     if (list == nullptr) {
-        fail(value.where, "lights must be written as [[light]] (two brackets), one table each");
+        fail(value.where, "'light' is not a list of tables; write [[light]] with two brackets, one table each");
     }
     std::vector<Light> lights;
     std::set<std::string> names;

@@ -181,7 +181,8 @@ TableReader layer_of(const TableReader& table) {
     const TomlArray* list = layers->value.array();
     if (list == nullptr || list->empty()) {
         fail(layers->where,
-             fmt::format("layers of {} must be written as [[material.NAME.layer]], at least one", table.title()));
+             fmt::format("'layer' of {} is not a list of tables; write at least one [[material.NAME.layer]]",
+                         table.title()));
     }
     if (list->size() > 1) {
         fail_not_built((*list)[1].where, fmt::format("a stack of {} layers ({})", list->size(), table.title()),
@@ -211,8 +212,9 @@ std::vector<std::int64_t> read_ids(const TomlValue& value, const std::string& ti
             fail_type(element, "ids", "a list of whole numbers");
         }
         if (*id < -largest_id || *id > largest_id) {
-            fail(element.where, fmt::format("id {} of {} is beyond +-{}, the whole numbers that a plane holds", *id,
-                                            title, largest_id));
+            fail(element.where,
+                 fmt::format("id {} of {} cannot be told apart in a plane of floats; write ids within +-{}", *id, title,
+                             largest_id));
         }
         ids.push_back(*id);
     }
@@ -269,7 +271,7 @@ void read_materials(const TomlEntry* entry, bool default_written, Scene& scene) 
     }
     const TomlTable* table = entry->value.table();
     if (table == nullptr) {
-        fail(entry->value.where, "materials must be written as [material.NAME], one table each");
+        fail(entry->value.where, "'material' is not a table; write materials as [material.NAME], one table each");
     }
     scene.automatic_material = table->find("default") == nullptr;
     for (const TomlEntry& named : table->entries) {

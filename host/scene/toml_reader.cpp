@@ -15,7 +15,7 @@ namespace {
 
 const TomlTable& table_of(const TomlValue& value, const std::string& title) {
     if (value.table() == nullptr) {
-        fail(value.where, fmt::format("{} must be a table; it is {}", title, value.kind()));
+        fail(value.where, fmt::format("{} is {}; write a table", title, value.kind()));
     }
     return *value.table();
 }
@@ -23,7 +23,11 @@ const TomlTable& table_of(const TomlValue& value, const std::string& title) {
 } // namespace
 
 void fail(const SourceLocation& where, const std::string& message) {
-    throw UsageError(message_prefix(where) + message);
+    std::string line = message_prefix(where) + message;
+    // Keys and --set arguments may hold line breaks and worse; an error stays one line of plain text.
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    std::replace_if(line.begin(), line.end(), is_control, '?');
+    throw UsageError(line);
 }
 
 void fail_not_built(const SourceLocation& where, const std::string& subject, std::string_view advice) {
@@ -32,7 +36,7 @@ void fail_not_built(const SourceLocation& where, const std::string& subject, std
 }
 
 void fail_type(const TomlValue& value, std::string_view key, std::string_view what) {
-    fail(value.where, fmt::format("'{}' must be {}; it is {}", key, what, value.kind()));
+    fail(value.where, fmt::format("'{}' is {}; write {}", key, value.kind(), what));
 }
 
 std::string quoted_list(std::span<const std::string_view> words) {
@@ -150,7 +154,7 @@ TableReader::TableReader(const TomlTable& table, SourceLocation where, std::stri
     }
 }
 
-TableReader::TableReader(const TomlValue& value, std::string title, std::span<const std::string_view> known)
+TableReader::TableReader(const TomlValue& value, const std::string& title, std::span<const std::string_view> known)
     : TableReader(table_of(value, title), value.where, title, known) {}
 
 const TomlValue& TableReader::require(std::string_view key, std::string_view example) const {

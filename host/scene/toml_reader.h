@@ -50,7 +50,7 @@ inline constexpr Range positive{"more than 0", 0.0, std::numeric_limits<double>:
                                     std::span<const std::string_view> words);
 [[nodiscard]] bool as_bool(const TomlValue& value, std::string_view key);
 
-/// "must be WHAT; it is KIND".
+/// "'KEY' is KIND; write WHAT".
 [[noreturn]] void fail_type(const TomlValue& value, std::string_view key, std::string_view what);
 
 /// "'a', 'b', 'c'".
@@ -64,7 +64,7 @@ class TableReader {
     TableReader(const TomlTable& table, SourceLocation where, std::string title,
                 std::span<const std::string_view> known);
     /// The value must be a table.
-    TableReader(const TomlValue& value, std::string title, std::span<const std::string_view> known);
+    TableReader(const TomlValue& value, const std::string& title, std::span<const std::string_view> known);
 
     [[nodiscard]] const TomlEntry* find(std::string_view key) const { return table_->find(key); }
     [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }

@@ -1,0 +1,147 @@
+// --set and --model.
+#include "tests/scene/support.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace clshade {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string with_material = head + "[material.default]\nspecular = { f0 = 0.1, shininess = 8 }\n"
+                                         "diffuse = { model = 'lambert' }\n";
+
+TEST(Overrides, ReplaceWhatIsWritten) {
+    const Scene scene = parse(with_material, {"material.default.specular.shininess=32"});
+    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 32.0);
+    EXPECT_EQ(scene.materials[0].specular.f0.constant.x, 0.1);
+}
+
+TEST(Overrides, TheLastOneWins) {
+    const Scene scene =
+        parse(with_material, {"material.default.specular.shininess=32", "material.default.specular.shininess = 33 "});
+    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 33.0);
+}
+
+TEST(Overrides, TakeEveryKindOfValue) {
+    const Scene scene = parse(with_material, {"material.default.diffuse.albedo=[0.1, 0.2, 0.3]",
+                                              "material.default.diffuse.model=oren_nayar",
+                                              "material.default.specular.f0={ channel = 'spec', scale = 0.5 }",
+                                              "gbuffer.normal=\"View Layer.Normal\"", "gbuffer.normal_space=camera"});
+    EXPECT_EQ(scene.materials[0].diffuse.albedo.constant, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::oren_nayar);
+    EXPECT_EQ(scene.materials[0].specular.f0.channels.at(0), "spec");
+    EXPECT_EQ(scene.materials[0].specular.f0.scale, 0.5);
+    EXPECT_EQ(scene.gbuffer.roles.at(0).channels.at(0), "View Layer.Normal");
+    EXPECT_EQ(scene.gbuffer.normal_space, NormalSpace::camera);
+}
+
+TEST(Overrides, FindLightsByNameAndIndex) {
+    const std::string two = head + "[material.default]\ndiffuse = {}\n";
+    EXPECT_EQ(parse(two, {"light.key.irradiance=5"}).lights[0].power, glm::dvec3(5.0));
+    EXPECT_EQ(parse(two, {"light.0.irradiance=6"}).lights[0].power, glm::dvec3(6.0));
+    EXPECT_EQ(parse(two, {"light.key.direction.2=-2"}).lights[0].direction, glm::dvec3(0, 0, -2));
+    EXPECT_THAT(error_of(two, {"light.kee.irradiance=5"}),
+                HasSubstr("'light' has no element 'kee'; did you mean 'key'?"));
+    EXPECT_THAT(error_of(two, {"light.1.irradiance=5"}), HasSubstr("it has 1, counted from 0"));
+}
+
+TEST(Overrides, CreateTables) {
+    const Scene scene = parse(head, {"material.wax.ids=[4]", "material.wax.diffuse.albedo=0.25"});
+    ASSERT_EQ(scene.materials.size(), 2U);
+    EXPECT_EQ(scene.materials[1].name, "wax");
+    EXPECT_EQ(scene.materials[1].diffuse.albedo.constant.x, 0.25);
+    EXPECT_TRUE(scene.automatic_material);
+}
+
+TEST(Overrides, ReachIntoLayers) {
+    const std::string text = head + "[[material.default.layer]]\nspecular = { shininess = 9 }\n";
+    EXPECT_EQ(
+        parse(text, {"material.default.layer.0.specular.shininess=10"}).materials[0].specular.shininess.constant.x,
+        10.0);
+    EXPECT_EQ(parse(text, {}, "blinn_phong_exact").materials[0].specular.model, SpecularModel::blinn_phong_exact);
+}
+
+TEST(Overrides, ObeyTheSameRules) {
+    EXPECT_THAT(error_of(with_material, {"material.default.specular.shininess=-3"}),
+                StartsWith("--set material.default.specular.shininess=-3: 'shininess' is -3; it must be"));
+    EXPECT_THAT(error_of(with_material, {"material.default.specular.shinines=3"}),
+                StartsWith("--set material.default.specular.shinines=3: unknown key 'shinines'"));
+    EXPECT_THAT(error_of(with_material, {"material.default.specular.model=blin_phong"}), HasSubstr("did you mean"));
+    EXPECT_THAT(error_of(with_material, {"material.default.specular.f0=nan"}), HasSubstr("finite"));
+    EXPECT_THAT(error_of(with_material, {"version=2"}), HasSubstr("--set version=2: scene version 2"));
+    EXPECT_THAT(error_of(with_material, {"material.default.specular.shininess=1e"}), // no number: a bare word
+                testing::Eq(""));                                                    // a layer of that name may exist
+    EXPECT_THAT(error_of(with_material, {"light.key.irradiance=1e"}), HasSubstr("is a string; write a number"));
+}
+
+TEST(Overrides, MustBeAssignments) {
+    EXPECT_THAT(error_of(head, {"units"}), StartsWith("--set units: the assignment has no '='"));
+    EXPECT_THAT(error_of(head, {"=3"}), HasSubstr("is not a path of keys"));
+    EXPECT_THAT(error_of(head, {"a..b=3"}), HasSubstr("is not a path of keys"));
+    EXPECT_THAT(error_of(head, {"a b=3"}), HasSubstr("is not a path of keys"));
+    EXPECT_THAT(error_of(head, {"units="}), HasSubstr("is not a TOML value"));
+    EXPECT_THAT(error_of(head, {"units=[1, 2"}), HasSubstr("is not a TOML value"));
+    EXPECT_THAT(error_of(head, {"units=3\nversion=1"}), HasSubstr("is not a TOML value"));
+    EXPECT_THAT(error_of(head, {"version.x=3"}), HasSubstr("'version' is a whole number and has no key 'x'"));
+}
+
+TEST(Overrides, QuotedKeysMayHoldDots) {
+    const Scene scene = parse(head, {"material.\"my.wax\".ids=[4]", "material.'my.wax'.diffuse.albedo=0.25"});
+    EXPECT_EQ(scene.materials.at(1).name, "my.wax");
+}
+
+TEST(Model, ChoosesTheLobeByName) {
+    EXPECT_EQ(parse(with_material, {}, "blinn_phong_exact").materials[0].specular.model,
+              SpecularModel::blinn_phong_exact);
+    EXPECT_EQ(parse(with_material, {}, "oren_nayar_full").materials[0].diffuse.model, DiffuseModel::oren_nayar_full);
+    EXPECT_THAT(error_of(with_material, {}, "blinn_phong_exakt"),
+                StartsWith("--model blinn_phong_exakt: unknown model; did you mean 'blinn_phong_exact'?"));
+    EXPECT_THAT(error_of(with_material, {}, "blinn_phong_spectral"), HasSubstr("is not built yet"));
+    EXPECT_THAT(error_of(with_material, {}, "none"), HasSubstr("--set material.default.specular.model=none"));
+    EXPECT_THAT(error_of(with_material, {}, "zzz"), HasSubstr("write one of 'blinn_phong'"));
+}
+
+TEST(Automatic, OverridesLeaveTheRestAutomatic) {
+    const Scene scene = default_scene(std::vector<std::string>{"material.default.specular.shininess=32"}, {});
+    EXPECT_FALSE(scene.automatic_material);
+    EXPECT_TRUE(scene.automatic.albedo);
+    EXPECT_TRUE(scene.automatic.f0);
+    EXPECT_FALSE(scene.automatic.shininess);
+    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 32.0);
+    EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::lambert); // not "none": nobody wrote the material
+}
+
+TEST(Automatic, AModelLeavesAllParametersAutomatic) {
+    const Scene scene = default_scene({}, "oren_nayar");
+    EXPECT_FALSE(scene.automatic_material);
+    EXPECT_TRUE(scene.automatic.albedo && scene.automatic.f0 && scene.automatic.shininess);
+    EXPECT_EQ(scene.materials[0].specular.model, SpecularModel::blinn_phong);
+    EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::oren_nayar);
+    EXPECT_FALSE(scene.materials[0].diffuse.shininess.has_value());
+}
+
+TEST(Automatic, IorIsAWrittenF0) {
+    const Scene scene = default_scene(std::vector<std::string>{"material.default.specular.ior=3"}, {});
+    EXPECT_FALSE(scene.automatic.f0);
+    EXPECT_EQ(scene.materials[0].specular.f0.constant.x, 0.25);
+}
+
+TEST(Automatic, WrittenMaterialsStayWritten) {
+    const Scene scene = parse(with_material, {"material.default.specular.shininess=32"});
+    EXPECT_FALSE(scene.automatic_material);
+    EXPECT_FALSE(scene.automatic.albedo || scene.automatic.f0 || scene.automatic.shininess);
+}
+
+TEST(DefaultScene, TakesOverrides) {
+    const Scene scene = default_scene(std::vector<std::string>{"light.key.irradiance=9", "light.key.color=1"}, {});
+    EXPECT_EQ(scene.lights[0].power, glm::dvec3(9.0));
+    EXPECT_TRUE(scene.lights[0].in_camera_space);
+    EXPECT_TRUE(scene.automatic_material);
+    EXPECT_THROW((void)default_scene(std::vector<std::string>{"light.kye.irradiance=9"}, {}), UsageError);
+}
+
+} // namespace
+} // namespace clshade

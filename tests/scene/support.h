@@ -1,0 +1,33 @@
+// Helpers for scene tests: parse text and look at the one-line error.
+#pragma once
+
+#include "host/base/error.h"
+#include "host/scene/scene_file.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace clshade {
+
+inline Scene parse(std::string_view text, const std::vector<std::string>& overrides = {}, std::string_view model = {}) {
+    return parse_scene(text, "scene.toml", overrides, model);
+}
+
+/// The message of the UsageError that parsing throws, or "" if it throws none.
+inline std::string error_of(std::string_view text, const std::vector<std::string>& overrides = {},
+                            std::string_view model = {}) {
+    try {
+        (void)parse(text, overrides, model);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+/// Three lines; what a test appends starts in line 4.
+inline const std::string head = "version = 1\n"
+                                "light = [{ name = 'key', type = 'distant', direction = [0, 0, -1], irradiance = 3 }]\n"
+                                "\n";
+
+} // namespace clshade
