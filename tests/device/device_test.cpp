@@ -3,13 +3,13 @@
 #include "host/base/error.h"
 #include "host/device/device.h"
 #include "host/device/program.h"
+#include "tests/device/failure_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cstring>
-#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -18,6 +18,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using tests::failure_text;
 
 constexpr const char* source = R"(
 __kernel void add(__global const float* a, __global const float* b, __global float* sum, float factor) {
@@ -170,15 +171,6 @@ TEST(Buffer, RowsGoToTheirPitchAndBack) {
     }
     EXPECT_THROW(buffer.write_rows(host.data(), host_pitch, device_pitch, row_bytes, rows + 1), RuntimeFailure);
     EXPECT_THROW(buffer.write_rows(host.data(), host_pitch, 32, row_bytes, rows), RuntimeFailure);
-}
-
-std::string failure_text(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "nothing was thrown";
 }
 
 TEST(Buffer, RefusesWhatCannotBe) {
