@@ -1,0 +1,67 @@
+// Punctual lights: where the light comes from and how much arrives (models.md section 0; pixel rule 8).
+#ifndef CLSHADE_LIGHTS_CL
+#define CLSHADE_LIGHTS_CL
+
+#include "surface.cl"
+
+// Guards of H for L = -E and for N.H <= 0, both only possible with the eye behind the surface.
+#define SMALLEST_HH 1e-7f
+#define SMALLEST_NH 1e-19f
+
+// Everything a model needs of one light at one pixel.
+typedef struct {
+    real strength; // E_0 = power * strength
+    real nl;       // N.L, at least 0: every f_cos has it, or `ratio`, as a factor, so that light from behind gives 0
+    real el;       // E.L
+    real eh;       // E.H = L.H
+    real nh2;      // (N.H)^2
+    real sin2_nh;  // 1 - (N.H)^2 as |N x H|^2, exact near the highlight's centre
+    real ratio;    // min(1, N.L / N.E): N.L / max(N.L, N.E)
+} incidence;
+
+static inline incidence make_incidence(surface s, vec3 l, real strength) {
+    incidence i;
+    i.nl = larger(dot3(s.n, l), splat(0.0f));
+    i.strength = strength;
+    i.el = dot3(s.e, l);
+    i.ratio = smaller(splat(1.0f), i.nl * s.inverse_ne);
+
+    // Half vector h = L + E, not normalised: |h|^2 = 2 + 2 E.L, E.H = |h| / 2.
+    const vec3 h = add3(l, s.e);
+    const real hh = dot3(h, h);
+    const real inverse_h = inverse_sqrt(larger(hh, splat(SMALLEST_HH)));
+    const real nh = larger(dot3(s.n, h) * inverse_h, splat(SMALLEST_NH));
+    const vec3 c = cross3(s.n, h);
+    i.eh = 0.5f * hh * inverse_h;
+    i.nh2 = nh * nh;
+    i.sin2_nh = dot3(c, c) * (inverse_h * inverse_h);
+    return i;
+}
+
+static inline incidence incidence_of(surface s, __global const LightConstants* light) {
+    vec3 l = make_vec3(splat(light->direction[0]), splat(light->direction[1]), splat(light->direction[2]));
+    real strength = splat(1.0f);
+#if HAS_POINT_LIGHTS || HAS_SPOT_LIGHTS
+    if (light->type != LIGHT_DISTANT) {
+        const vec3 d = make_vec3((light->position_hi[0] - s.position.x) + light->position_lo[0],
+                                 (light->position_hi[1] - s.position.y) + light->position_lo[1],
+                                 (light->position_hi[2] - s.position.z) + light->position_lo[2]);
+        const real inverse_distance = inverse_sqrt(dot3(d, d));
+        const vec3 axis = l;
+        l = scale3(d, inverse_distance);
+        strength = inverse_distance * inverse_distance;
+#if HAS_SPOT_LIGHTS
+        if (light->type == LIGHT_SPOT) {
+            // Smoothstep over the angle from the axis, from the cone's edge inwards.
+            const vec3 across = cross3(axis, l);
+            const real angle = angle_of(sqrt(dot3(across, across)), -dot3(axis, l));
+            const real t = smaller(larger((light->cone_angle - angle) * light->cone_inverse_width, splat(0.0f)), splat(1.0f));
+            strength *= t * t * (3.0f - 2.0f * t);
+        }
+#endif
+    }
+#endif
+    return make_incidence(s, l, strength);
+}
+
+#endif

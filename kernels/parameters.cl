@@ -1,0 +1,58 @@
+// Material parameters: from planes or constants to the values the models take (pixel rule 6).
+#ifndef CLSHADE_PARAMETERS_CL
+#define CLSHADE_PARAMETERS_CL
+
+#include "surface.cl"
+
+#define LARGEST_SHININESS 65536.0f
+// Albedo or F0 outside [0, 1] by more than this is counted.
+#define CLAMP_SLACK 1e-3f
+
+// A plane's value: as it is, divided by coverage if it was averaged over it, then scaled if the scene says so.
+static inline real averaged(real value, surface s) {
+    return value * s.unpremultiply;
+}
+
+static inline real scaled(real value, __constant const ParameterConstants* p) {
+    return fma(value, splat(p->scale), splat(p->offset));
+}
+
+// n = 2/r^4 - 2 for a GGX roughness r (alpha = r^2); r = 0 gives Inf, which the clamp takes to the largest shininess.
+static inline real shininess_from_ggx_roughness(real r) {
+    const real r2 = r * r;
+    return 2.0f / (r2 * r2) - 2.0f;
+}
+
+static inline real shininess_from_smoothness(real smoothness) {
+    return shininess_from_ggx_roughness(1.0f - smoothness);
+}
+
+// n = 2/sigma^2 (models.md section 8.7).
+static inline real shininess_from_oren_nayar_sigma(real sigma) {
+    return 2.0f / (sigma * sigma);
+}
+
+static inline real clamp_shininess(real n) {
+    return smaller(larger(n, splat(0.0f)), splat(LARGEST_SHININESS));
+}
+
+static inline real clamp_unit(real v) {
+    return smaller(larger(v, splat(0.0f)), splat(1.0f));
+}
+
+static inline rgb clamp_unit_rgb(rgb v) {
+    return make_rgb(clamp_unit(v.r), clamp_unit(v.g), clamp_unit(v.b));
+}
+
+// Where a colour leaves [0, 1] by more than rounding.
+static inline mask outside_unit(rgb v) {
+    const real low = smaller(v.r, smaller(v.g, v.b));
+    const real high = larger(v.r, larger(v.g, v.b));
+    return (low < splat(-CLAMP_SLACK)) | (high > splat(1.0f + CLAMP_SLACK));
+}
+
+static inline rgb constant_rgb(__constant const ParameterConstants* p) {
+    return make_rgb(splat(p->value[0]), splat(p->value[1]), splat(p->value[2]));
+}
+
+#endif

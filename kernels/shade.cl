@@ -1,0 +1,45 @@
+// The shading kernel: one work-item shades LANES neighbouring pixels. Read from here: load_surface (surface.cl) turns
+// planes into a surface, shade_materials (materials.cl) runs the models over the lights, the rest is written below.
+#include "frame_layout.h"
+#include "types.h"
+
+#include "materials.cl"
+#include "parameters.cl"
+#include "radiance.cl"
+#include "surface.cl"
+
+// planes:  input planes, `plane_stride` floats apart; result: output planes, `result_stride` floats apart.
+// first_pixel: index of the first pixel of these planes in the whole picture (a band starts later).
+// counts: COUNT_SIZE counters, see types.h.
+__kernel void shade(__global const float* planes, ulong plane_stride, __global float* result, ulong result_stride,
+                    ulong first_pixel, __constant const FrameConstants* frame, __global const LightConstants* lights,
+                    __constant const MaterialConstants* materials, __global uint* counts) {
+    const ulong pixel = (ulong)get_global_id(0) * LANES;
+    const inputs in = {planes, plane_stride, pixel};
+    const results out = {result, result_stride, pixel};
+
+    const surface s = load_surface(in, first_pixel, frame);
+    const radiance lit = shade_materials(in, s, out, materials, lights, frame->light_count);
+    const radiance sum = add_emission(lit, in, s, &frame->emission);
+
+    const rgb total = scale_rgb(sum.total, s.coverage);
+    const mask finite = is_finite_rgb(total);
+    const mask good = s.alive & finite;
+    store_rgb(out, 0, choose_rgb(good, total, grey(splat(0.0f))));
+    store_plane(result, result_stride, 3, pixel, choose(good, s.coverage, splat(0.0f)));
+#if OUTPUT_DIFFUSE >= 0
+    store_rgb(out, OUTPUT_DIFFUSE, deliver(sum.diffuse, s, good));
+#endif
+#if OUTPUT_SPECULAR >= 0
+    store_rgb(out, OUTPUT_SPECULAR, deliver(sum.specular, s, good));
+#endif
+
+    const mask nonfinite = s.nonfinite | (s.alive & !finite);
+    const mask clamped = s.alive & sum.clamped;
+    const mask fractional = s.alive & sum.fractional_id;
+    if (any_lane(nonfinite | clamped | fractional)) {
+        atomic_add(counts + COUNT_NONFINITE, count_lanes(nonfinite));
+        atomic_add(counts + COUNT_CLAMPED, count_lanes(clamped));
+        atomic_add(counts + COUNT_FRACTIONAL_IDS, count_lanes(fractional));
+    }
+}
