@@ -32,9 +32,10 @@ double lobe(const Angles& angles, double n) {
     if (angles.nh <= 0.0) {
         return 0.0;
     }
-    // models.md section 14: (N.H)^n = exp(n/2 log1p(-|N x H|^2)). With N.H itself one rounding error of a value near 1
-    // would be multiplied by n.
-    return std::exp(0.5 * n * std::log1p(-angles.sin2_nh));
+    // (N.H)^n = exp(n log N.H). Near the highlight one rounding of N.H, a value near 1, would be multiplied by n; there
+    // models.md section 14 has log N.H = 1/2 log1p(-|N x H|^2). Near N.H = 0 it is 1 - |N x H|^2 that cancels.
+    const double log_nh = angles.nh > 0.5 ? 0.5 * std::log1p(-angles.sin2_nh) : std::log(angles.nh);
+    return std::exp(n * log_nh);
 }
 
 glm::dvec3 blinn_phong_exact(const Angles& angles, const glm::dvec3& f0, double n) {

@@ -6,6 +6,8 @@
 
 #include <glm/glm.hpp>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace clshade::reference {
@@ -36,5 +38,10 @@ struct Image {
 
 /// Shades the whole frame on `threads` threads (rows in parallel; the result does not depend on it).
 [[nodiscard]] Image shade(const Frame& frame, const AovSelection& aovs, int threads);
+
+/// What a pixel's formulas start from, by name, for messages about it: coverage, N, E, position, material, its
+/// parameters after conversion, and per light ("key.NL", ...) N.L, N.E, N.H, E.H and E_0. "nonfinite" = 1 or
+/// "surface" = 0 alone where there is nothing to shade.
+[[nodiscard]] std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, int x, int y);
 
 } // namespace clshade::reference

@@ -1,0 +1,160 @@
+#include "host/reference/rounding.h"
+
+#include "host/reference/angles.h"
+#include "host/reference/brdf.h"
+#include "host/reference/lights.h"
+#include "host/reference/surface.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clshade::reference {
+
+namespace {
+
+constexpr double unit_roundoff = 0x1p-24; // of single precision
+
+/// N, E, L and how far each may turn, in radians.
+struct Directions {
+    std::array<glm::dvec3, 3> vectors; ///< N, E, L
+    std::array<double, 3> turns;
+};
+
+/// Two unit vectors at right angles to v and to each other.
+std::array<glm::dvec3, 2> tangents(const glm::dvec3& v) {
+    const glm::dvec3 other = std::abs(v.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 first = glm::normalize(glm::cross(v, other));
+    return {first, glm::cross(v, first)};
+}
+
+/// Normalising rounds each component once; decoding and turning to world space round it a few times more.
+double normal_turn(const Frame& frame) {
+    double roundings = 1.0;
+    roundings += frame.normal_encoding == NormalEncoding::unorm ? 3.0 : 0.0;
+    roundings += frame.normal_space == NormalSpace::camera ? 2.0 : 0.0;
+    return roundings * unit_roundoff;
+}
+
+/// The eye is rounded where it stands: far from the origin and close to the surface, that is an angle.
+double eye_turn(const Frame& frame, const Surface& surface) {
+    const View& view = frame.view;
+    if (view.orthographic || !surface.position || surface.position_from_depth) {
+        return 3.0 * unit_roundoff; // the ray's direction is a sum of three terms
+    }
+    return (1.0 + glm::length(view.eye) / glm::length(view.eye - *surface.position)) * unit_roundoff;
+}
+
+/// The same for a light's position, and for a surface position that had to be computed from depth.
+double light_turn(const Frame& frame, const Light& light, const Surface& surface) {
+    if (light.type == LightType::distant || !surface.position) {
+        return unit_roundoff;
+    }
+    double size = glm::length(light.position);
+    if (surface.position_from_depth) {
+        size += glm::length(frame.view.origin) + 3.0 * glm::length(*surface.position - frame.view.origin);
+    }
+    return (1.0 + size / glm::length(light.position - *surface.position)) * unit_roundoff;
+}
+
+/// Radiance of one light along given directions. `power` is the irradiance before the cone.
+glm::dvec3 radiance(const MaterialValues& material, const Light& light, const glm::dvec3& power,
+                    const std::array<glm::dvec3, 3>& d) {
+    const Reflected r = reflect(material, angles_between(d[0], d[1], d[2]));
+    return (r.diffuse + r.specular) * power * cone_share(light, d[2]);
+}
+
+glm::dvec3 larger_change(const glm::dvec3& base, const glm::dvec3& one, const glm::dvec3& other) {
+    return glm::max(glm::abs(one - base), glm::abs(other - base));
+}
+
+/// Sum of the changes for one light.
+glm::dvec3 light_shift(const MaterialValues& material, const MaterialValues& nudged, const Light& light,
+                       const glm::dvec3& power, const Directions& d) {
+    const glm::dvec3 base = radiance(material, light, power, d.vectors);
+    glm::dvec3 shift = glm::abs(radiance(nudged, light, power, d.vectors) - base);
+    shift += 2.0 * d.turns[2] * glm::abs(base); // E_0 = power / distance^2: the distance is off as the angle is
+    for (std::size_t v = 0; v < d.vectors.size(); ++v) {
+        for (const glm::dvec3& tangent : tangents(d.vectors[v])) {
+            std::array<glm::dvec3, 3> plus = d.vectors;
+            std::array<glm::dvec3, 3> minus = d.vectors;
+            plus[v] = glm::normalize(plus[v] + d.turns[v] * tangent);
+            minus[v] = glm::normalize(minus[v] - d.turns[v] * tangent);
+            shift +=
+                larger_change(base, radiance(material, light, power, plus), radiance(material, light, power, minus));
+        }
+    }
+    return shift;
+}
+
+/// Irradiance of a light before its cone.
+glm::dvec3 power_at(Light light, const std::optional<glm::dvec3>& position) {
+    if (light.type == LightType::spot) {
+        light.type = LightType::point;
+    }
+    return incident_light(light, position).irradiance;
+}
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+struct PixelScale {
+    double irradiance = 0.0;
+    glm::dvec3 shift{0.0};
+};
+
+PixelScale pixel_scale(const Frame& frame, const std::vector<PlaneIndex>& planes, int x, int y) {
+    PixelScale scale;
+    if (!all_finite(frame, planes, x, y)) {
+        return scale;
+    }
+    const std::optional<Surface> surface = read_surface(frame, x, y);
+    if (!surface) {
+        return scale;
+    }
+    const MaterialValues material = read_material(frame, *surface, x, y);
+    Surface nudged_surface = *surface;
+    nudged_surface.coverage *= 1.0 - unit_roundoff;
+    const MaterialValues nudged = read_material(frame, nudged_surface, x, y);
+    glm::dvec3 level(0.0);
+    for (const Light& light : frame.lights) {
+        const Incident incident = incident_light(light, surface->position);
+        level += incident.irradiance;
+        const Directions directions{
+            {surface->normal, surface->eye, incident.direction},
+            {normal_turn(frame), eye_turn(frame, *surface), light_turn(frame, light, *surface)}};
+        scale.shift += light_shift(material, nudged, light, power_at(light, surface->position), directions);
+    }
+    scale.irradiance = largest(level) * surface->coverage;
+    scale.shift *= surface->coverage;
+    return scale;
+}
+
+} // namespace
+
+RoundingScale rounding_scale(const Frame& frame, int threads) {
+    const auto width = static_cast<std::size_t>(frame.planes.width());
+    const std::size_t pixels = width * static_cast<std::size_t>(frame.planes.height());
+    RoundingScale scale;
+    scale.irradiance.assign(pixels, 0.0);
+    scale.shift.fill(std::vector<double>(pixels, 0.0));
+    const std::vector<PlaneIndex> planes = planes_to_be_finite(frame);
+    const auto scan_row = [&](int y) {
+        for (int x = 0; x < frame.planes.width(); ++x) {
+            const PixelScale pixel = pixel_scale(frame, planes, x, y);
+            const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+            scale.irradiance[at] = pixel.irradiance;
+            for (int c = 0; c < 3; ++c) {
+                scale.shift[static_cast<std::size_t>(c)][at] = pixel.shift[c];
+            }
+        }
+    };
+    tbb::task_arena arena(std::max(threads, 1));
+    arena.execute([&] { tbb::parallel_for(0, frame.planes.height(), scan_row); });
+    return scale;
+}
+
+} // namespace clshade::reference

@@ -1,0 +1,52 @@
+// How far a device may be from the reference.
+#pragma once
+
+#include "host/scene/scene.h"
+
+#include <limits>
+
+namespace clshade::reference {
+
+/// Three levels, as in OpenImageIO's idiff. A channel with reference value b is within tolerance if
+///   |a - b| <= rel |b| + abs + per_irradiance I + per_roundoff S,
+/// with I and S the light level and the rounding shift of the pixel (RoundingScale); a pixel if all its channels are.
+/// At least `percentile` per cent of the pixels must be within tolerance, and none beyond `hard` times it.
+struct Tolerance {
+    double rel = 0.0;
+    double abs = 0.0;
+    double per_irradiance = 0.0;
+    double per_roundoff = 0.0;
+    double percentile = 100.0;
+    double hard = std::numeric_limits<double>::infinity();
+
+    /// What --rel, --abs and --percentile ask for: nothing else is allowed for.
+    [[nodiscard]] static Tolerance plain(double rel, double abs, double percentile) {
+        return {.rel = rel, .abs = abs, .percentile = percentile};
+    }
+};
+
+/// What single precision can reach for a pair of models (models.md section 14), whatever the kernel does.
+///
+/// rel. Diffuse models alone: 2e-6. With a lobe: 1e-5, for NH^n = exp(n/2 log1p(-|N x H|^2)): where the lobe is above
+/// 3e-7 of its peak the exponent is below 15, and four roundings (6e-8 each) of it are 3.6e-6; the polynomial power,
+/// normaliser, Fresnel term and division bring about as much again (section 14 measures 2.4e-6).
+///
+/// per_irradiance. 3e-7 of the light level: section 14's absolute tolerance, given there for E_0 = 1. It carries what
+/// cancels to nearly nothing, such as B gamma of Oren-Nayar.
+///
+/// per_roundoff. No form of the power helps against N, E, L and H that are themselves rounded. An error d of the angle
+/// t between N and H changes the lobe by n tan(t) d, relatively. Where the lobe is above 1e-3 of its peak,
+/// n t^2/2 < 6.9, so n tan(t) < sqrt(13.8 n): 168 at n = 2048, 951 at n = 65536, which is 1e-5 and 5.7e-5 for
+/// d = 2^-24. In that form the allowance would still be wrong at grazing angles, where E + L nearly cancel and the
+/// error of H is 1/|L + E| times that of E and L, and where N.L/N.E is a quotient of two small numbers. So the
+/// reference evaluates every pixel's own shift S for one rounding of N, E, L and the parameters. Single precision needs
+/// about three roundings for each of them: subtraction or decoding, normalisation, and the products of the dot
+/// products.
+///
+/// percentile and hard. S is a first-order bound with every sign against us, so practically all pixels lie far inside:
+/// the same formulas in plain single precision, on 400,000 random pixels with n up to 65536, left 0.006 % of them
+/// beyond one S, 1 pixel beyond 3 S (by 6 %), and 0.9 % beyond 0. One in 10,000 may pass 3 S where first order is not
+/// enough (a seam such as N.L = 0, a cone's hard edge), but none four times: a wrong formula does.
+[[nodiscard]] Tolerance default_tolerance(SpecularModel specular, DiffuseModel diffuse);
+
+} // namespace clshade::reference
