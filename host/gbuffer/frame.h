@@ -4,7 +4,8 @@
 // PIXEL RULES (public interface, "Output image"; models.md section 0). For every pixel, in this order:
 //  1. Non-finite: if any plane that the frame names (planes of roles and of parameters of materials that claim the
 //     pixel or not alike) holds NaN or Inf at the pixel, every output is 0 and the pixel is counted. One exception:
-//     +Inf in the depth plane is a background sentinel, not an error.
+//     +Inf in the depth plane is a background sentinel, not an error. A normal whose squared length overflows a float
+//     counts as non-finite too.
 //  2. Coverage c = coverage plane clamped to [0, 1], or 1 without that plane.
 //  3. Surface: raw normal n = plane (unorm encoding: 2 (plane / c) - 1). There is a surface if |n| >= 1e-6, c > 0, and
 //     not (no coverage plane and depth >= 6e4 with a depth plane). No surface: every output including alpha is 0.
@@ -24,8 +25,9 @@
 //  7. Material: the one whose ids hold the material_id plane's value rounded to the nearest whole number, else the
 //     first. A value further than 0.01 from a whole number is counted as a fractional id (on covered pixels).
 //  8. Lights: L, E_0 as in scene.h. NL = N.L; no light unless NL > 0. NE = max(N.E, 1e-4) wherever formulas say N.E.
-//     E.L, H, E.H, N.H are geometric (unclamped N), E.H and N.H clamped to [0, 1] before use; if |L+E|^2 < 1e-7,
-//     N.H = E.H = 0. NH^0 = 1. gamma = E.L - NE NL with the clamped NE.
+//     With m = sqrt(max(|L+E|^2, 1e-7)): H = (L+E)/m, E.H = |L+E|^2/(2 m), N.H = N.(L+E)/m, not below 1e-19, so that a
+//     surface seen from behind needs no case of its own. NH^0 = 1. gamma = E.L - NE NL with the clamped NE;
+//     cos(dphi) = gamma/(sin sin) is clamped to [-1, 1].
 //  9. Combination, per light: blinn_phong: diffuse (1 - F0), blinn_phong_exact: diffuse (1 - Schlick(F0, NL)); none:
 //     diffuse unweighted. Radiance = (diffuse f_cos + specular f_cos) E_0.
 // 10. Output: (sum over lights + emission) * c, alpha = c. AOV diffuse and specular: their sums * c without emission;
