@@ -16,9 +16,10 @@ namespace clshade {
 /// the parts used; what a part does not cover stays 0).
 struct FramePlan {
     std::vector<int> channels;
-    std::vector<int> keep; ///< indices into `channels` of those only passed through (--keep)
+    std::vector<int> keep; ///< indices into `channels` of those passed through (--keep), used for shading or not
     Frame frame;           ///< complete but for planes (allocated, zero) and for a camera recovered from positions
-    bool recover_camera = false; ///< neither scene nor header gave a camera: call recover_camera after reading
+    bool recover_camera = false; ///< neither scene nor header gave a whole camera: finish_frame recovers it
+    bool pose_known = false;     ///< the header gave an eye but no lens: kept if the recovery fails
 };
 
 /// Binds every parameter of every material, the roles and the camera. `keep` lists layers to pass through.
