@@ -141,7 +141,7 @@ void recover_camera(Frame& frame, bool pose_known) {
         const RecoveredView recovered = recover_view(frame);
         frame.view = recovered.view;
         frame.warnings.push_back(fmt::format(
-            "camera recovered from Position: median error {:.4f} px, 99 % within {:.3f} px, {} of {} samples, {}",
+            "camera recovered from Position: median error {:.2g} px, 99 % within {:.2g} px, {} of {} samples, {}",
             recovered.median_error_px, recovered.p99_error_px,
             static_cast<int>(recovered.inlier_fraction * recovered.samples + 0.5), recovered.samples,
             recovered.view.orthographic ? "orthographic" : "perspective"));
