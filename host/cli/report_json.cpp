@@ -17,6 +17,7 @@ void JsonReport::add(nlohmann::json result) {
 void JsonReport::add(nlohmann::json result, std::string_view status, const std::string& reason) {
     result["status"] = status;
     result["reason"] = reason;
+    has_error_ = has_error_ || status == "error";
     results_.push_back(std::move(result));
 }
 
@@ -45,7 +46,9 @@ ExitCode with_report(const CommonOptions& options, const std::string& command,
     try {
         code = verb(report);
     } catch (const std::exception& error) {
-        report.add(nlohmann::json::object(), "error", error.what());
+        if (!report.has_error()) {
+            report.add(nlohmann::json::object(), "error", error.what());
+        }
         try {
             write();
         } catch (const Error&) { // the first trouble is the one to tell

@@ -29,6 +29,8 @@ class JsonReport {
     void add(nlohmann::json result, std::string_view status, const std::string& reason);
     /// Further keys beside `results`.
     void set(const std::string& key, nlohmann::json value) { extra_[key] = std::move(value); }
+    /// Whether a result of status "error" has been added.
+    [[nodiscard]] bool has_error() const { return has_error_; }
     [[nodiscard]] nlohmann::json document() const;
 
   private:
@@ -36,11 +38,12 @@ class JsonReport {
     nlohmann::json device_;
     nlohmann::json driver_;
     nlohmann::json results_ = nlohmann::json::array();
+    bool has_error_ = false;
     nlohmann::json extra_ = nlohmann::json::object();
 };
 
-/// Runs a verb and writes its report to options.json_file (nothing if empty), also when the verb throws: then with one
-/// more result of status "error". What the verb threw is thrown on.
+/// Runs a verb and writes its report to options.json_file (nothing if empty), also when the verb throws: then with a
+/// result of status "error", if the verb has added none. What the verb threw is thrown on.
 ExitCode with_report(const CommonOptions& options, const std::string& command,
                      const std::function<ExitCode(JsonReport&)>& verb);
 

@@ -1,0 +1,52 @@
+// Device against reference for one frame, by pairs of models.
+#pragma once
+
+#include "host/gbuffer/frame.h"
+#include "host/reference/compare.h"
+#include "host/shading/shader.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clshade::cli {
+
+/// --rel, --abs, --percentile; what is absent comes from the models' defaults.
+struct ToleranceOverride {
+    std::optional<double> rel;
+    std::optional<double> abs;
+    std::optional<double> percentile;
+
+    /// With --rel or --abs nothing else is allowed for: no rounding scale, no hard limit, the other of the two is 0.
+    [[nodiscard]] bool is_plain() const { return rel || abs; }
+    [[nodiscard]] reference::Tolerance apply(const reference::Tolerance& defaults) const;
+};
+
+/// The verdict on the pixels of one pair of models.
+struct CheckResult {
+    std::string model; ///< "blinn_phong.lambert"; "no_surface" for the pixels that must stay 0
+    reference::Tolerance tolerance;
+    reference::Comparison comparison;
+    bool pass = false;
+    std::string trouble;  ///< why not, beyond the numbers: "alpha differs", ...
+    nlohmann::json worst; ///< x, y, inputs, device, reference; null if no pixel was compared
+};
+
+/// Stable name of a pair of models.
+[[nodiscard]] std::string pair_name(SpecularModel specular, DiffuseModel diffuse);
+
+/// Shades `frame` with the reference on `threads` threads and compares it with what the device made of it. One result
+/// per pair of models that claims a pixel, in the order of the materials.
+[[nodiscard]] std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded,
+                                                   const reference::Image& expected, const ToleranceOverride& wanted,
+                                                   int threads);
+
+/// Heading and one row per result: model, pixels, errors, tolerance, pass.
+[[nodiscard]] std::string check_table(const std::vector<CheckResult>& results);
+/// The worst pixel in words: where, inputs, both values.
+[[nodiscard]] std::string worst_text(const CheckResult& result);
+[[nodiscard]] nlohmann::json json_of(const CheckResult& result);
+
+} // namespace clshade::cli

@@ -1,0 +1,81 @@
+#include "host/cli/check_image.h"
+
+#include "host/base/error.h"
+#include "host/cli/frame_input.h"
+#include "host/cli/frame_output.h"
+#include "host/images/image_writer.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+namespace clshade::cli {
+
+namespace {
+
+constexpr int colours = 3;
+constexpr std::array<const char*, colours> colour_names{"R", "G", "B"};
+constexpr std::array<const char*, 3> kinds{"device", "reference", "error"};
+
+} // namespace
+
+CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, int threads) {
+    const ChosenScene chosen = choose_scene(scene);
+    LoadedFrame loaded = load_frame(plan_input(file, chosen.scene, scene.view), chosen.scene, threads);
+    return {std::move(loaded.frame), std::move(loaded.warnings)};
+}
+
+void check_dump_path(const std::filesystem::path& file, const std::filesystem::path& input) {
+    refuse_same_file(file, input);
+    if (file.extension() != ".exr") {
+        throw UsageError(fmt::format("{}: --dump writes .exr files only", file.string()));
+    }
+    check_output_path(file);
+}
+
+void ErrorDump::add(const std::string& layer, const Frame& frame, const ShadedImage& shaded,
+                    const reference::Image& expected) {
+    data_window_ = frame.data_window;
+    display_window_ = frame.display_window;
+    pixel_aspect_ = frame.pixel_aspect;
+    PlaneSlab planes(expected.width, expected.height, colours * static_cast<int>(kinds.size()));
+    for (int c = 0; c < colours; ++c) {
+        const std::vector<double>& reference = expected.planes[static_cast<std::size_t>(c)];
+        for (int y = 0; y < expected.height; ++y) {
+            for (int x = 0; x < expected.width; ++x) {
+                const double value = reference[static_cast<std::size_t>(y) * static_cast<std::size_t>(expected.width) +
+                                               static_cast<std::size_t>(x)];
+                const float device = shaded.planes.at(c, x, y);
+                planes.at(c, x, y) = device;
+                planes.at(colours + c, x, y) = static_cast<float>(value);
+                planes.at(2 * colours + c, x, y) = static_cast<float>(static_cast<double>(device) - value);
+            }
+        }
+    }
+    entries_.push_back({layer.empty() ? layer : layer + ".", std::move(planes)});
+}
+
+void ErrorDump::write(const std::filesystem::path& file, int threads) const {
+    OutputImage image;
+    image.data_window = data_window_;
+    image.display_window = display_window_;
+    image.pixel_aspect = pixel_aspect_;
+    for (const Entry& entry : entries_) {
+        int plane = 0;
+        for (const char* kind : kinds) {
+            for (const char* colour : colour_names) {
+                image.channels.push_back(
+                    {fmt::format("{}{}.{}", entry.layer, kind, colour), &entry.planes, plane, true});
+                ++plane;
+            }
+        }
+    }
+    image.attributes = {{"software", fmt::format("clshade {} check", CLSHADE_VERSION)}};
+    ExrSettings settings;
+    settings.half = false;
+    settings.threads = threads;
+    write_exr(file, image, settings);
+}
+
+} // namespace clshade::cli

@@ -1,0 +1,45 @@
+// The parts of `check` that touch image files: INPUT and --dump.
+#pragma once
+
+#include "host/cli/options.h"
+#include "host/gbuffer/frame.h"
+#include "host/reference/reference.h"
+#include "host/shading/shader.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clshade::cli {
+
+struct CheckInput {
+    Frame frame;
+    std::vector<std::string> warnings;
+};
+
+/// Reads INPUT as `shade` would. In builds without image files: throws UsageError.
+[[nodiscard]] CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, int threads);
+
+/// Throws as check_output_path does, and if --dump would overwrite the input.
+void check_dump_path(const std::filesystem::path& file, const std::filesystem::path& input);
+
+/// Planes device.R, reference.R, error.R (device - reference), ..., of one or several frames of one size.
+class ErrorDump {
+  public:
+    /// `layer`: put before the planes' names with a dot; may be empty.
+    void add(const std::string& layer, const Frame& frame, const ShadedImage& shaded, const reference::Image& expected);
+    /// Writes all as float EXR. Throws RuntimeFailure.
+    void write(const std::filesystem::path& file, int threads) const;
+
+  private:
+    struct Entry {
+        std::string layer;
+        PlaneSlab planes;
+    };
+    Window data_window_;
+    Window display_window_;
+    double pixel_aspect_ = 1.0;
+    std::vector<Entry> entries_;
+};
+
+} // namespace clshade::cli

@@ -1,0 +1,161 @@
+#include "host/cli/frame_output.h"
+
+#include "host/base/error.h"
+#include "host/cli/options.h"
+#include "host/images/image_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+
+namespace clshade::cli {
+
+namespace {
+
+constexpr std::array<std::string_view, 10> compressions{"none",  "rle", "zips", "zip",  "piz",
+                                                        "pxr24", "b44", "b44a", "dwaa", "dwab"};
+
+bool is_png(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string();
+    return extension == ".png" || extension == ".PNG";
+}
+
+// A PNG is whole if it ends with the chunk IEND (length 0, name, checksum).
+bool is_whole_png(const std::filesystem::path& file) {
+    constexpr std::string_view end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+    std::ifstream stream(file, std::ios::binary);
+    std::array<char, 12> tail{};
+    stream.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
+    stream.read(tail.data(), tail.size());
+    return stream.good() && std::string_view(tail.data(), tail.size()) == end;
+}
+
+bool is_whole(const std::filesystem::path& file) {
+    if (is_png(file)) {
+        return is_whole_png(file);
+    }
+    try {
+        return !read_layout(file).channels.empty();
+    } catch (const RuntimeFailure&) {
+        return false;
+    }
+}
+
+void add_matrices(OutputImage& image, const LoadedFrame& loaded) {
+    // The picture is seen through the input's camera; what its header says of it is still true.
+    for (const char* name : {"worldToCamera", "worldToNDC", "worldToScreen"}) {
+        if (const auto found = loaded.layout.matrices.find(name); found != loaded.layout.matrices.end()) {
+            image.matrices[name] = found->second;
+        }
+    }
+    const View& view = loaded.frame.view;
+    if (!image.matrices.contains("worldToCamera")) {
+        const Window& window = loaded.frame.data_window;
+        const glm::dvec3 centre =
+            view.origin + 0.5 * window.width() * view.origin_dx + 0.5 * window.height() * view.origin_dy;
+        image.matrices["worldToCamera"] = world_to_camera(view.camera_to_world, view.orthographic ? centre : view.eye);
+    }
+}
+
+} // namespace
+
+glm::dmat4 world_to_camera(const glm::dmat3& camera_to_world, const glm::dvec3& eye) {
+    // Rows of the rotation are the camera's axes right, up and forward (-Z). A matrix for row vectors, stored row by
+    // row, has the same memory as GLM's for column vectors, stored column by column.
+    const glm::dmat3 rotation = glm::transpose(camera_to_world);
+    glm::dmat4 matrix(rotation);
+    matrix[3] = glm::dvec4(-(rotation * eye), 1.0);
+    for (int i = 0; i < 4; ++i) {
+        matrix[i].z = -matrix[i].z;
+    }
+    return matrix;
+}
+
+OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, const ChosenScene& scene,
+                        const DeviceInfo& device) {
+    OutputImage image;
+    image.data_window = loaded.frame.data_window;
+    image.display_window = loaded.frame.display_window;
+    image.pixel_aspect = loaded.frame.pixel_aspect;
+    for (std::size_t i = 0; i < shaded.plane_names.size(); ++i) {
+        image.channels.push_back({shaded.plane_names[i], &shaded.planes, static_cast<int>(i), false});
+    }
+    for (const KeptPlane& kept : loaded.kept) {
+        const bool taken = std::any_of(image.channels.begin(), image.channels.end(),
+                                       [&](const OutputChannel& channel) { return channel.name == kept.name; });
+        if (taken) {
+            throw UsageError(fmt::format("{}: --keep: channel '{}' has the name of an output channel; leave it out",
+                                         loaded.frame.file, kept.name));
+        }
+        image.channels.push_back({kept.name, &loaded.frame.planes, kept.plane, !kept.exact_in_half});
+    }
+    image.attributes = {
+        {"software", fmt::format("clshade {}", CLSHADE_VERSION)},
+        {"clshade/version", CLSHADE_VERSION},
+        {"clshade/device", device.platform + "/" + device.name},
+        {"clshade/driver", device.driver},
+        {"clshade/scene", scene.name},
+        {"clshade/scene_hash", scene.hash},
+        {"clshade/kernel", shaded.identity},
+        {"clshade/camera", loaded.camera_source},
+        {"clshade/normal_space", loaded.frame.normal_space == NormalSpace::world ? "world" : "camera"},
+    };
+    add_matrices(image, loaded);
+    return image;
+}
+
+void write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings) {
+    if (is_png(file)) {
+        write_png(file, image);
+    } else {
+        write_exr(file, image, settings);
+    }
+}
+
+bool is_up_to_date(const std::filesystem::path& output, const std::vector<std::filesystem::path>& sources) {
+    std::error_code error;
+    const auto written = std::filesystem::last_write_time(output, error);
+    if (error) {
+        return false;
+    }
+    for (const std::filesystem::path& source : sources) {
+        if (!source.empty() && (std::filesystem::last_write_time(source, error) > written || error)) {
+            return false;
+        }
+    }
+    return is_whole(output);
+}
+
+void refuse_same_file(const std::filesystem::path& output, const std::filesystem::path& source) {
+    if (source.empty()) {
+        return;
+    }
+    std::error_code ignored; // files that do not exist are not the same
+    if (std::filesystem::equivalent(output, source, ignored) ||
+        output.lexically_normal() == source.lexically_normal()) {
+        throw UsageError(fmt::format("{}: the output would overwrite the input; choose another name", output.string()));
+    }
+}
+
+void parse_compression(const std::string& text, ExrSettings& settings) {
+    const std::size_t colon = text.find(':');
+    settings.compression = text.substr(0, colon);
+    static_cast<void>(parse_choice("--compression", settings.compression, compressions));
+    if (colon == std::string::npos) {
+        return;
+    }
+    const std::string level = text.substr(colon + 1);
+    if (settings.compression == "zip" || settings.compression == "zips") {
+        settings.level = static_cast<double>(parse_whole("--compression level", level, 1, 9));
+    } else if (settings.compression == "dwaa" || settings.compression == "dwab") {
+        settings.level = parse_number("--compression level", level, 0.0);
+    } else {
+        throw UsageError(
+            fmt::format("--compression: {} takes no level; zip, zips, dwaa and dwab do", settings.compression));
+    }
+}
+
+} // namespace clshade::cli

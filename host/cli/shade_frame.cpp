@@ -1,0 +1,129 @@
+#include "host/cli/shade_frame.h"
+
+#include "host/base/error.h"
+#include "host/cli/stopwatch.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <utility>
+
+namespace clshade::cli {
+
+namespace {
+
+// Why the frame need not be shaded; empty: it must be.
+std::string reason_to_skip(const FrameJob& job, const ChosenScene& scene, const ShadeSettings& settings) {
+    std::error_code ignored;
+    if (settings.no_clobber && std::filesystem::exists(job.output, ignored)) {
+        return "the output exists (--no-clobber)";
+    }
+    if (settings.update_only && is_up_to_date(job.output, {job.input, scene.file})) {
+        return "the output is up to date (-u)";
+    }
+    return {};
+}
+
+std::string plan_text(const PlannedInput& input, const FrameJob& job, const ChosenScene& scene,
+                      const DeviceInfo& device) {
+    const Frame& frame = input.plan.frame;
+    std::string text =
+        fmt::format("would shade {} -> {}\n  {}x{} pixels, {} planes read of {} channels\n"
+                    "  camera: {}\n  scene: {}, {} lights\n  device: {}/{}\n",
+                    job.input.string(), job.output.string(), frame.data_window.width(), frame.data_window.height(),
+                    input.plan.channels.size(), input.layout.channels.size(), camera_source(input, scene.scene),
+                    scene.name, frame.lights.size(), device.platform, device.name);
+    for (const BoundMaterial& material : frame.materials) {
+        text += fmt::format("  material {}: {} + {}\n", material.name, name_of(material.specular),
+                            name_of(material.diffuse));
+    }
+    return text + "\n" + roles_text(input);
+}
+
+double sum_of(const std::vector<KernelTime>& kernels) {
+    double sum = 0.0;
+    for (const KernelTime& kernel : kernels) {
+        sum += kernel.milliseconds;
+    }
+    return sum;
+}
+
+} // namespace
+
+FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const ShadeSettings& settings, Session& session,
+                         Progress& progress) {
+    FrameOutcome outcome;
+    refuse_same_file(job.output, job.input);
+    refuse_same_file(job.output, scene.file);
+    if (!settings.dry_run) {
+        check_output_path(job.output);
+    }
+    outcome.skipped = reason_to_skip(job, scene, settings);
+    if (!outcome.skipped.empty()) {
+        return outcome;
+    }
+    const std::string name = job.input.filename().string();
+    Stopwatch watch;
+    progress.update("reading " + name, 0.0);
+    PlannedInput planned = plan_input(job.input, scene.scene, settings.view, settings.keep);
+    outcome.width = planned.plan.frame.data_window.width();
+    outcome.height = planned.plan.frame.data_window.height();
+    outcome.stages.add("read", watch.lap());
+    if (settings.dry_run) {
+        outcome.plan = plan_text(planned, job, scene, session.info());
+        return outcome;
+    }
+    Shader& shader = session.shader(settings.aovs);
+    outcome.stages.add("device", watch.lap());
+    LoadedFrame loaded = load_frame(std::move(planned), scene.scene, settings.threads);
+    outcome.stages.add("read", watch.lap());
+
+    progress.update("shading " + name, 0.3);
+    const ShadedImage shaded = shader.shade(loaded.frame);
+    const double shading = watch.lap();
+    const double kernel = sum_of(shaded.kernel_times);
+    outcome.stages.add("build", shaded.build_milliseconds);
+    outcome.stages.add("transfer", shaded.transfer_milliseconds);
+    outcome.stages.add("kernel", kernel);
+    const double rest = shading - shaded.build_milliseconds - shaded.transfer_milliseconds - kernel;
+    outcome.stages.add("prepare", rest > 0.0 ? rest : 0.0);
+    outcome.kernels = shaded.kernel_times;
+    outcome.counts = shaded.counts;
+    outcome.built_from_cache = shaded.built_from_cache;
+    refuse_filtered_ids(job.input.string(), shaded.counts);
+
+    progress.update("writing " + job.output.filename().string(), 0.6);
+    const OutputImage image = make_output(loaded, shaded, scene, session.info());
+    write_output(job.output, image, settings.exr);
+    if (!job.preview.empty()) {
+        write_png(job.preview, image);
+    }
+    outcome.stages.add("write", watch.lap());
+    outcome.warnings = std::move(loaded.warnings);
+    for (std::string& warning : count_warnings(job.input.string(), shaded.counts)) {
+        outcome.warnings.push_back(std::move(warning));
+    }
+    return outcome;
+}
+
+void refuse_filtered_ids(const std::string& file, const PixelCounts& counts) {
+    if (counts.fractional_ids > 0) {
+        throw UsageError(fmt::format("{}: material ids are filtered: {} pixels hold fractions; give a plane rendered "
+                                     "without a filter in [gbuffer] material_id",
+                                     file, counts.fractional_ids));
+    }
+}
+
+std::vector<std::string> count_warnings(const std::string& file, const PixelCounts& counts) {
+    std::vector<std::string> warnings;
+    if (counts.nonfinite > 0) {
+        warnings.push_back(fmt::format("{}: {} pixels with NaN or Inf are written as 0", file, counts.nonfinite));
+    }
+    if (counts.clamped > 0) {
+        warnings.push_back(
+            fmt::format("{}: {} pixels with a parameter out of its range; it was clamped", file, counts.clamped));
+    }
+    return warnings;
+}
+
+} // namespace clshade::cli

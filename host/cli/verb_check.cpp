@@ -1,0 +1,215 @@
+#include "host/base/error.h"
+#include "host/cli/check_frame.h"
+#include "host/cli/check_image.h"
+#include "host/cli/log_level.h"
+#include "host/cli/progress.h"
+#include "host/cli/report_json.h"
+#include "host/cli/run_stats.h"
+#include "host/cli/session.h"
+#include "host/cli/stopwatch.h"
+#include "host/cli/verb.h"
+#include "host/gbuffer/random_gbuffer.h"
+#include "host/scene/model_catalog.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <memory>
+#include <utility>
+
+namespace clshade::cli {
+
+namespace {
+
+constexpr std::array<SpecularModel, 3> speculars{SpecularModel::none, SpecularModel::blinn_phong,
+                                                 SpecularModel::blinn_phong_exact};
+constexpr std::array<DiffuseModel, 8> diffuses{DiffuseModel::none,
+                                               DiffuseModel::lambert,
+                                               DiffuseModel::oren_nayar,
+                                               DiffuseModel::oren_nayar_full,
+                                               DiffuseModel::oren_nayar_qualitative,
+                                               DiffuseModel::oren_nayar_simplified_1,
+                                               DiffuseModel::oren_nayar_simplified_2,
+                                               DiffuseModel::oren_nayar_shininess};
+
+struct CheckOptions {
+    CommonOptions common;
+    SceneOptions scene;
+    std::string input;
+    std::string rel;
+    std::string abs;
+    std::string percentile;
+    std::string dump;
+    std::string size = "256x256";
+};
+
+ToleranceOverride override_of(const CheckOptions& options) {
+    ToleranceOverride wanted;
+    if (!options.rel.empty()) {
+        wanted.rel = parse_number("--rel", options.rel, 0.0);
+    }
+    if (!options.abs.empty()) {
+        wanted.abs = parse_number("--abs", options.abs, 0.0);
+    }
+    if (!options.percentile.empty()) {
+        wanted.percentile = parse_number("--percentile", options.percentile, 0.0);
+        if (*wanted.percentile > 100.0) {
+            throw UsageError(fmt::format("--percentile: {} is more than 100", options.percentile));
+        }
+    }
+    return wanted;
+}
+
+// Runs one or many comparisons and tells of them.
+class CheckRun {
+  public:
+    CheckRun(const CheckOptions& options, JsonReport& report)
+        : options_(options), report_(report), wanted_(override_of(options)), session_(options.common) {}
+
+    ExitCode run() {
+        if (!options_.dump.empty()) {
+            check_dump_path(options_.dump, options_.input);
+        }
+        if (options_.input.empty()) {
+            every_model();
+        } else {
+            input();
+        }
+        if (!options_.dump.empty()) {
+            dump_.write(options_.dump, options_.common.host_threads());
+        }
+        return tell();
+    }
+
+  private:
+    void input() {
+        Stopwatch watch;
+        CheckInput input = read_check_input(options_.input, options_.scene, options_.common.host_threads());
+        StageTimes stages;
+        stages.add("read", watch.lap());
+        Progress progress(options_.common, 1);
+        progress.update("comparing " + options_.input);
+        compare(input.frame, {}, std::move(stages));
+        progress.clear();
+        for (const std::string& warning : input.warnings) {
+            spdlog::warn(warning);
+        }
+    }
+
+    void every_model() {
+        const Size size = parse_size("--size", options_.size);
+        Progress progress(options_.common, static_cast<int>(speculars.size() * diffuses.size()) - 1);
+        for (const SpecularModel specular : speculars) {
+            for (const DiffuseModel diffuse : diffuses) {
+                if (specular == SpecularModel::none && diffuse == DiffuseModel::none) {
+                    continue; // black
+                }
+                const std::string name = pair_name(specular, diffuse);
+                progress.update("comparing " + name);
+                Stopwatch watch;
+                Frame frame = random_frame(size.width, size.height, specular, diffuse, options_.common.seed);
+                StageTimes stages;
+                stages.add("random G-buffer", watch.lap());
+                compare(frame, name, std::move(stages));
+                progress.step();
+            }
+        }
+    }
+
+    void compare(Frame& frame, const std::string& layer, StageTimes stages) {
+        Stopwatch watch;
+        Shader& shader = session_.shader({});
+        report_.set_device(session_.info());
+        stages.add("device", watch.lap());
+        const ShadedImage shaded = shader.shade(frame);
+        stages.add("shade", watch.lap());
+        if (shaded.counts.fractional_ids > 0) {
+            throw UsageError(
+                fmt::format("{}: material ids are filtered: {} pixels hold fractions; give a plane rendered "
+                            "without a filter in [gbuffer] material_id",
+                            frame.file, shaded.counts.fractional_ids));
+        }
+        const int threads = options_.common.host_threads();
+        const reference::Image expected = reference::shade(frame, {}, threads);
+        stages.add("reference", watch.lap());
+        for (CheckResult& result : check_frame(frame, shaded, expected, wanted_, threads)) {
+            // Without INPUT the empty pixels of all random frames are the same; they stand in each one's row.
+            const bool merge = !layer.empty() && result.model == "no_surface";
+            if (merge && result.pass) {
+                continue;
+            }
+            result.model = merge ? layer + ".no_surface" : result.model;
+            results_.push_back(std::move(result));
+        }
+        if (expected.counts.nonfinite != shaded.counts.nonfinite) {
+            results_.back().pass = false;
+            results_.back().trouble = fmt::format("non-finite pixels: device {}, reference {}", shaded.counts.nonfinite,
+                                                  expected.counts.nonfinite);
+        }
+        if (!options_.dump.empty()) {
+            dump_.add(layer, frame, shaded, expected);
+        }
+        stages.add("compare", watch.lap());
+        stats_.add(stages);
+        stats_.add(shaded.kernel_times);
+    }
+
+    ExitCode tell() {
+        std::size_t failed = 0;
+        std::string worst;
+        for (const CheckResult& result : results_) {
+            report_.add(json_of(result));
+            failed += result.pass ? 0 : 1;
+            if (!result.pass || options_.common.verbosity > 0) {
+                worst += worst_text(result);
+            }
+        }
+        if (!options_.common.quiet) {
+            fmt::print("{}/{}, {} lanes, against the double-precision reference\n\n{}", session_.info().platform,
+                       session_.info().name, session_.shader({}).lanes(), check_table(results_));
+            fmt::print("{}{}\n{} of {} passed\n", worst.empty() ? "" : "\n", worst, results_.size() - failed,
+                       results_.size());
+        }
+        if (options_.common.run_stats) {
+            fmt::print("\n{}", stats_.text());
+        }
+        return failed == 0 && !results_.empty() ? ExitCode::ok : ExitCode::comparison_failed;
+    }
+
+    const CheckOptions& options_;
+    JsonReport& report_;
+    ToleranceOverride wanted_;
+    Session session_;
+    RunStats stats_;
+    std::vector<CheckResult> results_;
+    ErrorDump dump_;
+};
+
+} // namespace
+
+Action declare_check(CLI::App& app) {
+    auto options = std::make_shared<CheckOptions>();
+    CheckOptions* o = options.get();
+    app.add_option("INPUT", o->input, "G-buffer EXR. Default: a random G-buffer for every pair of models");
+    add_scene_options(app, o->scene);
+    app.add_option("--rel", o->rel, "largest relative error; replaces the models' defaults together with --abs")
+        ->type_name("X");
+    app.add_option("--abs", o->abs, "largest absolute error, in units of radiance. Default: 0 if --rel is given")
+        ->type_name("X");
+    app.add_option("--percentile", o->percentile, "share of pixels that must be within tolerance. Default: 99.99")
+        ->type_name("PERCENT");
+    app.add_option("--dump", o->dump, "write device.*, reference.* and error.* planes as EXR")->type_name("FILE");
+    app.add_option("--size", o->size, "size of the random G-buffers in pixels. Default: 256x256")->type_name("WxH");
+    add_common_options(app, o->common, CommonGroup::running);
+    return [options] {
+        set_log_level(options->common);
+        return with_report(options->common, "check", [&](JsonReport& report) {
+            CheckRun run(*options, report);
+            return run.run();
+        });
+    };
+}
+
+} // namespace clshade::cli
