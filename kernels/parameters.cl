@@ -17,6 +17,17 @@ static inline real scaled(real value, __constant const ParameterConstants* p) {
     return fma(value, splat(p->scale), splat(p->offset));
 }
 
+// Ids are whole numbers in float planes (pixel rule 7).
+static inline mask has_id(real id, float wanted) {
+    return fabs(id - wanted) < splat(0.5f);
+}
+
+// Further than 0.01 from a whole number: the plane was filtered. From 2^22 on no float is.
+static inline mask is_fractional(real id) {
+    const real nearest = (id + ROUNDING_MAGIC) - ROUNDING_MAGIC;
+    return (fabs(id - nearest) > splat(0.01f)) & (fabs(id) < splat(4194304.0f));
+}
+
 // n = 2/r^4 - 2 for a GGX roughness r (alpha = r^2); r = 0 gives Inf, which the clamp takes to the largest shininess.
 static inline real shininess_from_ggx_roughness(real r) {
     const real r2 = r * r;

@@ -66,6 +66,10 @@ static inline rgb multiply_add_rgb(rgb a, rgb b, rgb c) {
     return make_rgb(fma(a.r, b.r, c.r), fma(a.g, b.g, c.g), fma(a.b, b.b, c.b));
 }
 
+static inline rgb larger_rgb(rgb a, float limit) {
+    return make_rgb(larger(a.r, splat(limit)), larger(a.g, splat(limit)), larger(a.b, splat(limit)));
+}
+
 // 1 - a, per channel.
 static inline rgb complement(rgb a) {
     return make_rgb(1.0f - a.r, 1.0f - a.g, 1.0f - a.b);

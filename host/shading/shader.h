@@ -15,8 +15,8 @@ namespace clshade {
 
 struct ShaderOptions {
     AovSelection aovs;
-    int lanes = 0;                    ///< 1, 4, 8, 16; 0: the best known for the device and driver
-    std::uint64_t max_memory = 0;     ///< bytes of device memory for planes; 0: what the device has
+    int lanes = 0;                     ///< 1, 4, 8, 16; 0: the best known for the device and driver
+    std::uint64_t max_memory = 0;      ///< bytes of device memory for planes; 0: what the device has
     std::size_t pixels_per_launch = 0; ///< 0: automatic; tests force small bands
 };
 
@@ -87,7 +87,10 @@ class Shader {
     [[nodiscard]] int lanes() const { return lanes_; }
 
   private:
-    const Program& program_for(const Frame& frame);
+    [[nodiscard]] const Program& program_for(const Frame& frame);
+    /// Pixels of one launch: all of them, or as many as the device and --max-mem can hold.
+    [[nodiscard]] std::size_t band_pixels(const Frame& frame, std::size_t outputs) const;
+    [[nodiscard]] ShadedImage shade_in_bands(Frame& frame, std::size_t band);
 
     Device* device_;
     SourceSet kernels_;
