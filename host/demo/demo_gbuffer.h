@@ -12,9 +12,9 @@ namespace clshade {
 /// One frame of the demo as a renderer would hand it over.
 struct DemoFrame {
     PlaneSlab planes;
-    std::vector<std::string> plane_names; ///< "Normal.X", ..., "Position.X", "Depth.Z", "Albedo.R", "F0.R", "Roughness.V",
-                                          ///< "MaterialID.V", "UV.A" (coverage)
-    Camera camera;                        ///< with its vertical field of view
+    std::vector<std::string> plane_names; ///< "Normal.X", ..., "Position.X", "Depth.Z", "Albedo.R", "F0.R",
+                                          ///< "Roughness.V", "MaterialID.V", "UV.A" (coverage)
+    Camera camera; ///< with its vertical field of view
 };
 
 /// Renders frame `index` (1-based) of `count` at width x height: spheres, a ground, letters, several materials with
