@@ -74,6 +74,8 @@ void assign_three(std::array<PlaneIndex, 3>& target, const std::vector<PlaneInde
 Frame read_geometry(const std::filesystem::path& file, const ImageLayout& layout, const RoleAssignment& roles,
                     int threads) {
     RolePlan plan(layout, roles);
+    RolePlanes planes;
+    assign_three(planes.position, plan.add(Role::position));
     assign_three(planes.normal, plan.add(Role::normal));
     planes.depth = single(plan.add(Role::depth));
     planes.coverage = single(plan.add(Role::coverage));

@@ -75,7 +75,8 @@ std::string RunStats::text() const {
                              format_ms(sum.milliseconds / sum.launches),
                              fmt::format("{:.2f}", sum.bytes / std::max(sum.milliseconds, 1e-9) * 1e-6)});
         }
-        text += "\n" + kernels.text();
+        text += '\n';
+        text += kernels.text();
     }
     constexpr double mebibyte = 1024.0 * 1024.0;
     return text + fmt::format("\npeak memory: {:.0f} MiB\n", peak_memory() / mebibyte);

@@ -65,7 +65,7 @@ std::vector<FrameJob> single_job(const ShadeOptions& options, const std::optiona
         throw UsageError(fmt::format("{}: INPUT {} is one file, so the output has no frame number; leave # or %04d out",
                                      options.output, options.input));
     }
-    return {{std::nullopt, options.input, options.output}};
+    return {{std::nullopt, options.input, options.output, {}}};
 }
 
 // Everything to be done, in order.
@@ -82,7 +82,8 @@ std::vector<FrameJob> jobs_of(const ShadeOptions& options) {
                                          options.output, frames.size()));
         }
         for (const int frame : frames) {
-            jobs.push_back({frame, input->at(frame), output ? output->at(frame) : options.output});
+            const std::filesystem::path target = output ? output->at(frame) : std::filesystem::path(options.output);
+            jobs.push_back({frame, input->at(frame), target, {}});
         }
     }
     if (options.chunk.empty()) {
