@@ -4,6 +4,7 @@
 #include "host/demo/demo_tracer.h"
 
 #include <glm/gtc/constants.hpp>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -210,7 +211,7 @@ DemoFrame render_demo_frame(int width, int height, int index, int count, int thr
                          "F0.B",     "Roughness.V", "MaterialID.V", "UV.A"};
     const RayMaker rays(frame.camera, width, height);
     // Every pixel is computed on its own, so that the number of threads does not change a byte.
-    tbb::task_arena arena(std::max(threads, 1));
+    tbb::task_arena arena(std::clamp(threads, 1, tbb::info::default_concurrency()));
     arena.execute([&] { render(frame.planes, rays); });
     return frame;
 }
