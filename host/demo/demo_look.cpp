@@ -41,7 +41,8 @@ Look stage_look(glm::vec3 p) {
     const float sectors = ring < 1.0F ? 1.0F : ring < 3.0F ? 12.0F : ring < 6.0F ? 24.0F : 36.0F;
     const float sector = (std::atan2(p.y, p.x) / (2.0F * pi) + 0.5F) * sectors;
     const float tile_width = 2.0F * pi * radius / sectors;
-    const bool joint = fraction(ring) < 0.05F || (sectors > 1.0F && fraction(sector) * tile_width < 0.02F);
+    const bool joint =
+        (ring > 0.5F && fraction(ring) < 0.05F) || (sectors > 1.0F && fraction(sector) * tile_width < 0.02F);
     const float parity = checks(ring, sector);
     Look look;
     look.albedo = glm::mix(glm::vec3(0.105F, 0.125F, 0.16F), glm::vec3(0.21F, 0.225F, 0.25F), parity);

@@ -135,7 +135,8 @@ float Stage::openness(glm::vec3 p, glm::vec3 normal) const {
         blocked += weight * (reaches.at(i) - nearest.at(i)) / reaches.at(i);
         weight *= 0.75F;
     }
-    return std::clamp(1.0F - blocked / 1.35F, 0.0F, 1.0F);
+    constexpr float darkest = 0.15F; // light that bounces into every corner
+    return std::clamp(1.0F - (1.0F - darkest) * blocked / 1.35F, darkest, 1.0F);
 }
 
 Stage build_stage() {
