@@ -44,7 +44,8 @@ double percentile_of(std::vector<double>& errors, double percentile) {
     if (errors.empty()) {
         return 0.0;
     }
-    const double rank = std::ceil(percentile / 100.0 * static_cast<double>(errors.size()));
+    // 1 - 1e-12: 99.9 % of 1000 is 999, although 0.999 is not exact.
+    const double rank = std::ceil(percentile / 100.0 * (1.0 - 1e-12) * static_cast<double>(errors.size()));
     const auto at = static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
     std::nth_element(errors.begin(), errors.begin() + at, errors.end());
     return errors[static_cast<std::size_t>(at)];
