@@ -185,25 +185,21 @@ Frame make_bench_frame(int width, int height, std::uint64_t seed) {
             const SurfacePoint point =
                 surface_at(picture_width * ((x + 0.5) / width - 0.5), picture_height * (0.5 - (y + 0.5) / height),
                            along_x.height[column] + along_y.height[row], along_x.slope[column], -along_y.slope[row]);
+            // Seen in perspective: the height moves the point along its pixel's ray.
+            const glm::dvec3 on_ground(point.position.x, point.position.y, 0.0);
+            const glm::dvec3 position = glm::mix(on_ground, frame.view.eye, point.position.z / eye_distance);
             const glm::dvec3 albedo = 0.05 + 0.85 * glm::dvec3(blend(0), blend(1), blend(2));
             const double metal = blend(3);
             const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), glm::dvec3(0.95, 0.8, 0.5), metal * metal);
-            const double shininess = std::exp2(3.0 + 6.0 * blend(1));
+            const double shininess = std::exp2(3.0 + 5.0 * blend(1));
             const std::array<double, bench_planes> values = {
-                point.normal.x,
-                point.normal.y,
-                point.normal.z,
-                point.position.x,
-                point.position.y,
-                point.position.z,
-                albedo.r,
-                albedo.g,
-                albedo.b,
-                f0.r,
-                f0.g,
-                f0.b,
-                shininess,
-                static_cast<double>((x / id_tile + 3 * (y / id_tile)) % 4 + 1)};
+                point.normal.x, point.normal.y,
+                point.normal.z, position.x,
+                position.y,     position.z,
+                albedo.r,       albedo.g,
+                albedo.b,       f0.r,
+                f0.g,           f0.b,
+                shininess,      static_cast<double>((x / id_tile + 3 * (y / id_tile)) % 4 + 1)};
             for (int p = 0; p < bench_planes; ++p) {
                 frame.planes.at(p, x, y) = static_cast<float>(values[static_cast<std::size_t>(p)]);
             }

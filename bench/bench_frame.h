@@ -24,7 +24,7 @@ struct BenchScene {
 };
 
 /// Waves and a grid of spheres seen in perspective; no coverage and no depth plane, every pixel has a surface. Smooth
-/// albedo and F0, shininess 8 to 512 evenly in its logarithm. The same seed gives the same picture at one size.
+/// albedo and F0, shininess 8 to 256 evenly in its logarithm. The same seed gives the same picture at one size.
 [[nodiscard]] Frame make_bench_frame(int width, int height, std::uint64_t seed);
 
 /// Puts a row's lights and materials into a bench frame; the planes stay as they are.

@@ -83,6 +83,28 @@ std::regex compile_filter(const std::string& filter) {
 
 } // namespace
 
+std::string_view name_of(BenchStatus status) {
+    switch (status) {
+    case BenchStatus::ok:
+        return "ok";
+    case BenchStatus::skipped:
+        return "skipped";
+    case BenchStatus::unsupported:
+        return "unsupported";
+    case BenchStatus::error:
+        return "error";
+    }
+    return "?";
+}
+
+std::vector<std::string> benchmark_keys(const BenchOptions& options) {
+    std::vector<std::string> keys;
+    for (const BenchRow& row : select_rows(options)) {
+        keys.push_back(row.key());
+    }
+    return keys;
+}
+
 std::string_view name_of(Rival rival) {
     switch (rival) {
     case Rival::stream_opencl:

@@ -107,7 +107,7 @@ struct LaneTime {
     int lanes = 1;
     BenchStatus status = BenchStatus::ok;
     std::string reason;
-    double median_ms = 0.0;
+    double median_ms = 0.0; ///< one light and eight lights together
 };
 
 struct LaneTuning {

@@ -25,35 +25,46 @@ void stream_x86_64_v4(const Planes& planes, std::size_t begin, std::size_t end);
 
 } // namespace rivals
 
-namespace {
-
-struct KernelSet {
+/// The rivals of one instruction set.
+struct HostKernels {
     std::string_view instruction_set;
     rivals::ShadeRange openmp_simd;
     rivals::ShadeRange hand_simd;
     rivals::StreamRange stream;
 };
 
-/// The widest set that this processor runs.
-const KernelSet& kernel_set() {
-    static const KernelSet chosen = [] {
+namespace {
+
+/// What this processor runs, widest first.
+const std::vector<HostKernels>& usable_kernels() {
+    static const std::vector<HostKernels> usable = [] {
+        std::vector<HostKernels> sets;
 #ifdef CLSHADE_RIVALS_X86
-        const auto has_avx512 = __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
-                                __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-                                __builtin_cpu_supports("avx512vl") != 0;
-        if (has_avx512) {
-            return KernelSet{"x86-64-v4", rivals::openmp_simd_x86_64_v4, rivals::hand_simd_x86_64_v4,
-                             rivals::stream_x86_64_v4};
+        if (__builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+            __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+            __builtin_cpu_supports("avx512vl") != 0) {
+            sets.push_back(
+                {"x86-64-v4", rivals::openmp_simd_x86_64_v4, rivals::hand_simd_x86_64_v4, rivals::stream_x86_64_v4});
         }
         if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
             __builtin_cpu_supports("bmi2") != 0) {
-            return KernelSet{"x86-64-v3", rivals::openmp_simd_x86_64_v3, rivals::hand_simd_x86_64_v3,
-                             rivals::stream_x86_64_v3};
+            sets.push_back(
+                {"x86-64-v3", rivals::openmp_simd_x86_64_v3, rivals::hand_simd_x86_64_v3, rivals::stream_x86_64_v3});
         }
 #endif
-        return KernelSet{"baseline", rivals::openmp_simd_baseline, rivals::hand_simd_baseline, rivals::stream_baseline};
+        sets.push_back({"baseline", rivals::openmp_simd_baseline, rivals::hand_simd_baseline, rivals::stream_baseline});
+        return sets;
     }();
-    return chosen;
+    return usable;
+}
+
+const HostKernels& kernels_named(std::string_view instruction_set) {
+    for (const HostKernels& set : usable_kernels()) {
+        if (instruction_set.empty() || set.instruction_set == instruction_set) {
+            return set;
+        }
+    }
+    throw std::invalid_argument("no rivals for this instruction set");
 }
 
 /// Pixels that a thread takes at a time: 32 KiB of each plane, enough to amortise the counter and to keep the hardware
@@ -79,25 +90,34 @@ std::vector<rivals::DistantLight> distant_lights(const Frame& frame) {
     return lights;
 }
 
-HostRivals::HostRivals(const Frame& frame, int threads)
-    : frame_(&frame), output_(frame.planes.width(), frame.planes.height(), 4), pool_(threads_or_all(threads)) {}
+std::vector<std::string_view> instruction_sets() {
+    std::vector<std::string_view> names;
+    for (const HostKernels& set : usable_kernels()) {
+        names.push_back(set.instruction_set);
+    }
+    return names;
+}
+
+HostRivals::HostRivals(const Frame& frame, int threads, std::string_view instruction_set)
+    : frame_(&frame), kernels_(&kernels_named(instruction_set)),
+      output_(frame.planes.width(), frame.planes.height(), 4), pool_(threads_or_all(threads)) {}
 
 double HostRivals::openmp_simd(const std::vector<rivals::DistantLight>& lights, int planes_out) {
-    return shade(kernel_set().openmp_simd, lights, planes_out);
+    return shade(kernels_->openmp_simd, lights, planes_out);
 }
 
 double HostRivals::hand_simd(const std::vector<rivals::DistantLight>& lights, int planes_out) {
-    return shade(kernel_set().hand_simd, lights, planes_out);
+    return shade(kernels_->hand_simd, lights, planes_out);
 }
 
 double HostRivals::stream(int planes_in, int planes_out) {
     const rivals::Planes where = planes(planes_in, planes_out);
     return pool_.run(output_.padded_pixels(), chunk,
-                     [&where](std::size_t begin, std::size_t end) { kernel_set().stream(where, begin, end); });
+                     [this, &where](std::size_t begin, std::size_t end) { kernels_->stream(where, begin, end); });
 }
 
 std::string_view HostRivals::instruction_set() const {
-    return kernel_set().instruction_set;
+    return kernels_->instruction_set;
 }
 
 rivals::Planes HostRivals::planes(int planes_in, int planes_out) {

@@ -14,12 +14,19 @@ namespace clshade {
 /// Lights of a frame as the C++ rivals take them. Throws std::invalid_argument if one is not distant.
 [[nodiscard]] std::vector<rivals::DistantLight> distant_lights(const Frame& frame);
 
+/// The instruction sets that were compiled and that this processor runs, widest first: "x86-64-v4" (AVX-512),
+/// "x86-64-v3" (AVX2), "baseline".
+[[nodiscard]] std::vector<std::string_view> instruction_sets();
+
+struct HostKernels;
+
 /// Runs the rivals with the widest instructions the processor has. Refers to the frame, whose planes must stay; the
 /// lights are handed over so that the frame's own may change.
 class HostRivals {
   public:
-    /// threads: 0 stands for all processors.
-    HostRivals(const Frame& frame, int threads);
+    /// threads: 0 stands for all processors. instruction_set: one of instruction_sets(), empty for the widest; throws
+    /// std::invalid_argument for another.
+    HostRivals(const Frame& frame, int threads, std::string_view instruction_set = {});
 
     // Each does its work once and returns its milliseconds. planes_out: 3, or 4 with alpha.
     double openmp_simd(const std::vector<rivals::DistantLight>& lights, int planes_out);
@@ -29,7 +36,6 @@ class HostRivals {
     /// What the last one wrote: R, G, B, alpha.
     [[nodiscard]] const PlaneSlab& output() const { return output_; }
     [[nodiscard]] int threads() const { return pool_.threads(); }
-    /// "x86-64-v4", "x86-64-v3" or "baseline".
     [[nodiscard]] std::string_view instruction_set() const;
 
   private:
@@ -37,6 +43,7 @@ class HostRivals {
     double shade(rivals::ShadeRange work, const std::vector<rivals::DistantLight>& lights, int planes_out);
 
     const Frame* frame_;
+    const HostKernels* kernels_;
     PlaneSlab output_;
     WorkerPool pool_;
 };

@@ -1,6 +1,6 @@
 // Hand-vectorised: one vector of pixels at a time, a run-time loop over the lights in registers, streamed stores.
 // models.md section 2 (approximated Blinn-Phong) with Lambert, in the form that needs least arithmetic:
-//   |L + E|^2 = 2 + 2 E.L, E.H = sqrt((1 + E.L) / 2), N.H^2 = (N.L + N.E)^2 / (2 + 2 E.L)   (section 0, three-dot form)
+//   E.H = sqrt((1 + E.L) / 2), N.H = (N.L + N.E) / sqrt(2 (1 + E.L))      (section 0, three-dot form)
 //   N.H^n = 2^(n/2 log2 N.H^2),  N.L / max(N.L, N.E) = min(1, N.L / N.E)
 // F_spec = F0 + (1 - F0) G is linear in F0, so the loop sums the weights of F0 and of 1 - F0 apart.
 #include "bench/simd/kernel_set.h"
@@ -23,11 +23,11 @@ void shade(const Planes& planes, const Scene& scene, size_t begin, size_t end) {
         const float* in = planes.in + i;
         Real normal[3] = {load(in), load(in + stride), load(in + 2 * stride)};
         const Real squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        const Real scale = reciprocal_sqrt(maximum(squared, splat(1e-12F)));
+        const Real scale = over_sqrt(1.0F, maximum(squared, splat(1e-12F)));
         const Whole surface = squared >= 1e-12F;
         Real to_eye[3] = {eye[0] - load(in + 3 * stride), eye[1] - load(in + 4 * stride),
                           eye[2] - load(in + 5 * stride)};
-        const Real eye_scale = reciprocal_sqrt(to_eye[0] * to_eye[0] + to_eye[1] * to_eye[1] + to_eye[2] * to_eye[2]);
+        const Real eye_scale = over_sqrt(1.0F, to_eye[0] * to_eye[0] + to_eye[1] * to_eye[1] + to_eye[2] * to_eye[2]);
         for (int c = 0; c < 3; ++c) {
             normal[c] *= scale;
             to_eye[c] *= eye_scale;
@@ -45,13 +45,13 @@ void shade(const Planes& planes, const Scene& scene, size_t begin, size_t end) {
             const DistantLight& light = scene.lights[k];
             const Real nl = maximum(
                 normal[0] * light.to_light[0] + normal[1] * light.to_light[1] + normal[2] * light.to_light[2], zero);
-            const Real el =
-                to_eye[0] * light.to_light[0] + to_eye[1] * light.to_light[1] + to_eye[2] * light.to_light[2];
-            const Real squared_sum = maximum(2.0F + 2.0F * el, splat(1e-7F));
-            const Real r = reciprocal_sqrt(squared_sum);
-            const Real eh = 0.5F * squared_sum * r;
-            const Real nh = minimum((nl + raw_ne) * r, one);
-            const Real exponent = maximum(half_n * log2_lanes(maximum(nh * nh, splat(1e-12F))), splat(-60.0F));
+            const Real half_squared = maximum(to_eye[0] * light.to_light[0] + (to_eye[1] * light.to_light[1] +
+                                                                               (to_eye[2] * light.to_light[2] + 1.0F)),
+                                              splat(5e-8F));      // 1 + E.L
+            const Real r = over_sqrt(0.707106781F, half_squared); // 1 / |L + E|
+            const Real eh = half_squared * r;
+            const Real nh = maximum((nl + raw_ne) * r, splat(1e-6F));
+            const Real exponent = maximum(half_n * log2_lanes(nh * nh), splat(-60.0F));
             const Real lobe = exp2_lanes(exponent) * minimum(one, nl * one_over_ne);
             const Real weighted = lobe * exp2_lanes((-5.55473F * eh - 6.98316F) * eh);
             for (int c = 0; c < 3; ++c) {

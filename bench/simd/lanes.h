@@ -47,34 +47,47 @@ inline void finish_streams() {
 }
 
 inline Real maximum(Real a, Real b) {
+#if defined(__AVX512F__)
+    return _mm512_max_ps(a, b);
+#elif defined(__AVX__)
+    return _mm256_max_ps(a, b);
+#elif defined(__SSE2__)
+    return _mm_max_ps(a, b);
+#else
     return a > b ? a : b;
+#endif
 }
 
 inline Real minimum(Real a, Real b) {
+#if defined(__AVX512F__)
+    return _mm512_min_ps(a, b);
+#elif defined(__AVX__)
+    return _mm256_min_ps(a, b);
+#elif defined(__SSE2__)
+    return _mm_min_ps(a, b);
+#else
     return a < b ? a : b;
+#endif
 }
 
-/// 1 / sqrt(x) for x > 0: the estimate and one Newton step, or the real thing.
-inline Real reciprocal_sqrt(Real x) {
+/// c / sqrt(x) for x > 0: the estimate and one Newton step, or the real thing and one.
+inline Real over_sqrt(float c, Real x) {
 #if defined(__AVX512F__)
     const Real y = _mm512_rsqrt14_ps(x);
-    return y * (1.5F - 0.5F * x * y * y);
 #elif defined(__AVX__)
     const Real y = _mm256_rsqrt_ps(x);
-    return y * (1.5F - 0.5F * x * y * y);
 #elif defined(__SSE2__)
     const Real y = _mm_rsqrt_ps(x);
-    return y * (1.5F - 0.5F * x * y * y);
 #else
     Real y = x;
     for (int i = 0; i < lane_count; ++i) {
         y[i] = 1.0F / __builtin_sqrtf(x[i]);
     }
-    return y;
 #endif
+    return y * (1.5F * c - (0.5F * c * x) * (y * y));
 }
 
-/// 2^x for -126 < x < 127.
+/// 2^x for -126 < x < 127. Chebyshev interpolation of degree 4, relative error 7e-6.
 inline Real exp2_lanes(Real x) {
 #if defined(__AVX512F__)
     const Real whole = _mm512_roundscale_ps(x, 8); // nearest, no exception
@@ -84,7 +97,6 @@ inline Real exp2_lanes(Real x) {
     const Real whole = shifted - magic;
 #endif
     const Real f = x - whole; // -0.5 .. 0.5
-    // Chebyshev interpolation of degree 4, relative error 7e-6.
     Real p = splat(9.65671029e-03F);
     p = p * f + 5.58382829e-02F;
     p = p * f + 2.40225301e-01F;
@@ -97,12 +109,19 @@ inline Real exp2_lanes(Real x) {
 #endif
 }
 
-/// log2(x) for normal x > 0, with a small relative error near x = 1.
+/// log2(x) for normal x > 0, with a small relative error near x = 1: mantissa in 0.75 .. 1.5, then log2(1 + f) / f by
+/// Chebyshev interpolation of degree 6, relative error 1.3e-6.
 inline Real log2_lanes(Real x) {
+#if defined(__AVX512F__)
+    const Real mantissa = _mm512_getmant_ps(x, _MM_MANT_NORM_p75_1p5, _MM_MANT_SIGN_zero);
+    const Real f = mantissa - 1.0F;
+    const Real exponent = _mm512_getexp_ps(x) - _mm512_getexp_ps(mantissa);
+#else
     const Whole bits = reinterpret_cast<Whole>(x);
-    const Whole exponent = (bits - 0x3f400000) >> 23; // mantissa in 0.75 .. 1.5
-    const Real f = reinterpret_cast<Real>(bits - (exponent << 23)) - 1.0F;
-    // log2(1 + f) / f by Chebyshev interpolation of degree 6, relative error 1.3e-6.
+    const Whole whole = (bits - 0x3f400000) >> 23;
+    const Real f = reinterpret_cast<Real>(bits - (whole << 23)) - 1.0F;
+    const Real exponent = __builtin_convertvector(whole, Real);
+#endif
     Real p = splat(1.17231839e-01F);
     p = p * f - 2.40619997e-01F;
     p = p * f + 2.98174036e-01F;
@@ -110,7 +129,7 @@ inline Real log2_lanes(Real x) {
     p = p * f + 4.80641618e-01F;
     p = p * f - 7.21324777e-01F;
     p = p * f + 1.44269619e+00F;
-    return p * f + __builtin_convertvector(exponent, Real);
+    return p * f + exponent;
 }
 
 } // namespace

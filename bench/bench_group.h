@@ -1,0 +1,69 @@
+// Rows of one picture size, which share one set of planes and run in turns with all their rivals.
+#pragma once
+
+#include "bench/bench_rows.h"
+#include "bench/benchmark.h"
+#include "bench/contest.h"
+#include "bench/round_robin.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace clshade {
+
+class BenchGroup {
+  public:
+    /// All rows of one size. Throws RuntimeFailure when the planes do not fit.
+    BenchGroup(Device& device, const BenchOptions& options, std::vector<BenchRow> rows);
+
+    /// Prepares and checks every row and rival; `tell` is called before each row.
+    void prepare(const std::function<void(const std::string& what)>& tell);
+    /// Runs the rounds.
+    void run();
+
+    /// One per row, in their order.
+    [[nodiscard]] std::vector<BenchResult> results() const;
+    /// Paired ratio of two rows of this group by name ("shade.blinn_phong.lambert.distant1"), if both were timed.
+    [[nodiscard]] std::optional<double> ratio(std::string_view row, std::string_view baseline) const;
+
+  private:
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+    /// A rival of a row: what is known before the rounds, and whose times to compare with.
+    struct Pairing {
+        RivalResult result;
+        std::size_t contestant = none;
+    };
+    struct Entrant {
+        BenchRow row;
+        bool reported = true; ///< false: only here as the baseline of others
+        BenchResult result;
+        std::size_t contestant = none;
+        std::shared_ptr<PreparedFrame> prepared;
+        std::vector<Pairing> pairings;
+    };
+    struct Known {
+        std::size_t contestant = none;
+        double max_error = 0.0;
+    };
+
+    void prepare_row(Entrant& entrant);
+    void check_against_reference(const PlaneSlab& picture) const;
+    [[nodiscard]] Pairing pair_with(Rival rival, const Entrant& entrant, const PlaneSlab& picture);
+    [[nodiscard]] Known enter(RivalEntry entry, const std::string& name, const PlaneSlab& picture);
+    [[nodiscard]] BenchResult result_of(const Entrant& entrant) const;
+    [[nodiscard]] const Entrant* find(std::string_view row) const;
+
+    Device* device_;
+    BenchOptions options_;
+    Frame frame_;
+    Shader shader_;
+    RivalMaker maker_;
+    std::vector<Entrant> entrants_;
+    std::vector<Contestant> contestants_;
+    std::map<std::string, Known> known_; ///< rivals that take part, by id
+    std::vector<Timings> timings_;       ///< one per contestant
+};
+
+} // namespace clshade

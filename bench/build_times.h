@@ -1,0 +1,23 @@
+// How long it takes from nothing, and from the binary cache, to a kernel that has run.
+#pragma once
+
+#include "bench/bench_frame.h"
+#include "host/device/device.h"
+#include "host/device/program.h"
+
+#include <filesystem>
+
+namespace clshade {
+
+struct BuildTimes {
+    double cold_ms = 0.0;
+    double cached_ms = 0.0;
+};
+
+/// Builds a row's program into an empty binary cache, then loads it from there, each time from making the shader to the
+/// end of its first launch over a picture of 64x64 pixels. Sources get a comment nobody has seen before, so that a
+/// cache inside the driver does not answer for the compiler. Throws RuntimeFailure.
+[[nodiscard]] BuildTimes measure_build(Device& device, const BenchScene& scene, const std::filesystem::path& kernel_dir,
+                                       int lanes);
+
+} // namespace clshade
