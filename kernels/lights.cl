@@ -6,7 +6,7 @@
 
 // Guards of H for L = -E and for N.H <= 0, both only possible with the eye behind the surface.
 #define SMALLEST_HH 1e-7f
-#define SMALLEST_NH 1e-19f
+#define SMALLEST_NH 1e-18f // its square is still a normal float
 
 // Everything a model needs of one light at one pixel.
 typedef struct {

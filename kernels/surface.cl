@@ -8,6 +8,8 @@
 
 // Depths from here on are background sentinels: 1e10, 65504, Inf and others occur.
 #define DEPTH_SENTINEL 6e4f
+// Further than any lamp reaches, and its square is a float.
+#define FARTHEST 1e15f
 // N.E is never taken smaller: interpolated normals turn away from the eye on visible pixels (models.md section 0).
 #define SMALLEST_NE 1e-4f
 #define SHORTEST_NORMAL 1e-6f
@@ -128,10 +130,11 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
     const pixel_centre centre = centre_of(first_pixel + in.pixel, frame);
     const vec3 ray = affine(frame->direction, frame->direction_dx, frame->direction_dy, centre);
 #if PLANE_DEPTH >= 0
+    const real reach = smaller(depth, splat(FARTHEST)); // a sentinel may be Inf
 #if DEPTH_IS_RAY_LENGTH
-    const vec3 along = scale3(ray, depth * inverse_sqrt(dot3(ray, ray)));
+    const vec3 along = scale3(ray, reach * inverse_sqrt(dot3(ray, ray)));
 #else
-    const vec3 along = scale3(ray, depth);
+    const vec3 along = scale3(ray, reach);
 #endif
 #if VIEW_IS_ORTHOGRAPHIC
     s.position = add3(affine(frame->origin, frame->origin_dx, frame->origin_dy, centre), along);

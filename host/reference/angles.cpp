@@ -20,7 +20,8 @@ Angles angles_between(const glm::dvec3& normal, const glm::dvec3& eye, const glm
     const glm::dvec3 cross = glm::cross(normal, half);
     a.eh = length2 / (2.0 * length);
     a.nh = std::clamp(glm::dot(normal, half), 1e-18, 1.0);
-    a.sin2_nh = std::min(glm::dot(cross, cross), 1.0);
+    // Below the guard H is shorter than 1, and |N x H|^2 no longer what N.H leaves of 1.
+    a.sin2_nh = length2 < 1e-7 ? 1.0 - a.nh * a.nh : std::min(glm::dot(cross, cross), 1.0);
     return a;
 }
 

@@ -1,0 +1,127 @@
+// The kernels against the reference: every model at every lane width, bands, every kind of view and plane.
+#include "host/gbuffer/random_gbuffer.h"
+#include "host/reference/compare.h"
+#include "host/reference/reference.h"
+#include "host/reference/rounding.h"
+#include "host/reference/tolerance.h"
+#include "host/shading/kernel_library.h"
+#include "host/shading/shader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace clshade {
+namespace {
+
+/// The device the tests run on: the CPU, since every machine that builds clshade has PoCL.
+Device& test_device() {
+    static Device device(select_device(list_devices(), "cpu"));
+    return device;
+}
+
+ShadedImage shade(Frame& frame, int lanes, AovSelection aovs = {}, std::size_t band = 0) {
+    Shader shader(test_device(), kernel_sources(), ProgramCache::disabled(),
+                  {.aovs = aovs, .lanes = lanes, .max_memory = 0, .pixels_per_launch = band});
+    return shader.shade(frame);
+}
+
+/// What single precision can reach, at every pixel: the default tolerance of `clshade check`.
+void expect_agreement(const ShadedImage& device, const reference::Image& expected, const Frame& frame,
+                      const std::string& what) {
+    const BoundMaterial& material = frame.materials[0];
+    const auto tolerance = reference::default_tolerance(material.specular, material.diffuse);
+    const auto scale = reference::rounding_scale(frame, 2);
+    for (int plane = 0; plane + 3 <= static_cast<int>(device.plane_names.size()); plane += plane == 0 ? 4 : 3) {
+        const auto result = reference::compare(device.planes, expected, scale, tolerance, {}, plane, 3);
+        EXPECT_TRUE(reference::passes(result, tolerance))
+            << what << ", plane " << device.plane_names[static_cast<std::size_t>(plane)] << ": " << result.outside
+            << " pixels outside, worst at " << result.worst.x << "," << result.worst.y << ": " << result.worst.device
+            << " for " << result.worst.reference;
+    }
+    for (int y = 0; y < expected.height; ++y) {
+        for (int x = 0; x < expected.width; ++x) {
+            const double alpha = expected.planes[3][static_cast<std::size_t>(y) * expected.width + x];
+            EXPECT_EQ(device.planes.at(3, x, y), static_cast<float>(alpha)) << what << " alpha at " << x << "," << y;
+        }
+    }
+    EXPECT_EQ(device.counts.nonfinite, expected.counts.nonfinite) << what;
+    EXPECT_EQ(device.counts.clamped, expected.counts.clamped) << what;
+    EXPECT_EQ(device.counts.fractional_ids, expected.counts.fractional_ids) << what;
+}
+
+constexpr int width = 203; // neither a multiple of the lanes nor of a work-group
+constexpr int height = 61;
+
+class EveryModel : public testing::TestWithParam<std::tuple<SpecularModel, DiffuseModel>> {};
+
+TEST_P(EveryModel, AgreesWithTheReferenceAtEveryLaneWidth) {
+    const auto [specular, diffuse] = GetParam();
+    if (specular == SpecularModel::none && diffuse == DiffuseModel::none) {
+        return;
+    }
+    Frame frame = random_frame(width, height, specular, diffuse, 7);
+    const reference::Image expected = reference::shade(frame, {}, 2);
+    for (const int lanes : {1, 4, 8, 16}) {
+        expect_agreement(shade(frame, lanes), expected, frame, std::to_string(lanes) + " lanes");
+    }
+}
+
+std::string name_of_pair(const testing::TestParamInfo<std::tuple<SpecularModel, DiffuseModel>>& pair) {
+    return std::string(name_of(std::get<0>(pair.param))) + "_over_" + std::string(name_of(std::get<1>(pair.param)));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pairs, EveryModel,
+    testing::Combine(testing::Values(SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact),
+                     testing::Values(DiffuseModel::none, DiffuseModel::lambert, DiffuseModel::oren_nayar,
+                                     DiffuseModel::oren_nayar_full, DiffuseModel::oren_nayar_qualitative,
+                                     DiffuseModel::oren_nayar_simplified_1, DiffuseModel::oren_nayar_simplified_2,
+                                     DiffuseModel::oren_nayar_shininess)),
+    name_of_pair);
+
+TEST(Shader, BandsGiveTheSameBytesAsTheWhole) {
+    Frame frame = random_frame(width, height, SpecularModel::blinn_phong, DiffuseModel::oren_nayar, 3);
+    const AovSelection aovs = {.diffuse = true, .specular = true, .lights = true};
+    const ShadedImage whole = shade(frame, 16, aovs);
+    const ShadedImage bands = shade(frame, 16, aovs, 2048);
+    ASSERT_EQ(whole.planes.all().size(), bands.planes.all().size());
+    EXPECT_EQ(std::memcmp(whole.planes.data(), bands.planes.data(), whole.planes.all().size_bytes()), 0);
+    EXPECT_EQ(whole.counts.clamped, bands.counts.clamped);
+}
+
+TEST(Shader, TwoRunsGiveTheSameBytes) {
+    Frame frame = random_frame(width, height, SpecularModel::blinn_phong, DiffuseModel::lambert, 5);
+    const ShadedImage first = shade(frame, 16);
+    const ShadedImage second = shade(frame, 16);
+    EXPECT_EQ(std::memcmp(first.planes.data(), second.planes.data(), first.planes.all().size_bytes()), 0);
+}
+
+TEST(Shader, AovsAgreeWithTheReferenceAndAddUp) {
+    Frame frame = random_frame(width, height, SpecularModel::blinn_phong_exact, DiffuseModel::oren_nayar, 11);
+    const AovSelection aovs = {.diffuse = true, .specular = true, .lights = true};
+    const reference::Image expected = reference::shade(frame, aovs, 2);
+    const ShadedImage image = shade(frame, 16, aovs);
+    EXPECT_EQ(image.plane_names, output_plane_names(frame, aovs));
+    expect_agreement(image, expected, frame, "AOVs");
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                const float total = image.planes.at(c, x, y);
+                EXPECT_NEAR(image.planes.at(4 + c, x, y) + image.planes.at(7 + c, x, y), total, 2e-6F * (1.0F + total));
+            }
+        }
+    }
+}
+
+TEST(Shader, RefusesAnUnknownLaneWidth) {
+    EXPECT_THROW(Shader(test_device(), kernel_sources(), ProgramCache::disabled(), {.aovs = {}, .lanes = 3}),
+                 std::exception);
+}
+
+} // namespace
+} // namespace clshade
