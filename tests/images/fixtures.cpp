@@ -227,7 +227,8 @@ std::string bytes_of_file(const std::filesystem::path& file) {
 }
 
 void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
-    std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+    std::filesystem::remove(file); // some file systems force data to the medium when an old file is overwritten
+    std::ofstream stream(file, std::ios::binary);
     stream << bytes;
 }
 

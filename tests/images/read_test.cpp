@@ -224,21 +224,25 @@ void expect_as_openimageio(const std::filesystem::path& file) {
     const auto input = OIIO::ImageInput::open(file.string());
     ASSERT_NE(input, nullptr) << OIIO::geterror();
     std::size_t compared = 0;
-    for (std::size_t i = 0; i < picture.layout.channels.size(); ++i) {
-        const ChannelInfo& channel = picture.layout.channels[i];
-        const OIIO::ImageSpec spec = input->spec(channel.part);
-        const int c = spec.channelindex(channel.file_name);
-        ASSERT_GE(c, 0) << channel.file_name;
-        std::vector<float> pixels(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height));
-        ASSERT_TRUE(input->read_image(channel.part, 0, c, c + 1, OIIO::TypeDesc::FLOAT, pixels.data()));
-        for (int y = 0; y < spec.height; ++y) {
-            for (int x = 0; x < spec.width; ++x) {
-                const float expected = pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(spec.width) +
-                                              static_cast<std::size_t>(x)];
-                const float got = picture.at(static_cast<int>(i), x + spec.x, y + spec.y);
-                ASSERT_TRUE(got == expected || (std::isnan(got) && std::isnan(expected)))
-                    << file << " " << channel.name << " " << x << " " << y << ": " << got << " " << expected;
-                ++compared;
+    for (int part = 0; part < static_cast<int>(picture.layout.parts.size()); ++part) {
+        const OIIO::ImageSpec spec = input->spec(part);
+        const auto count = static_cast<std::size_t>(spec.nchannels);
+        std::vector<float> pixels(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) * count);
+        ASSERT_TRUE(input->read_image(part, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()));
+        for (std::size_t i = 0; i < picture.layout.channels.size(); ++i) {
+            const ChannelInfo& channel = picture.layout.channels[i];
+            if (channel.part != part) {
+                continue;
+            }
+            const int c = spec.channelindex(channel.file_name);
+            ASSERT_GE(c, 0) << channel.file_name;
+            const float* expected = pixels.data() + c;
+            for (int y = 0; y < spec.height; ++y) {
+                for (int x = 0; x < spec.width; ++x, expected += count, ++compared) {
+                    const float got = picture.at(static_cast<int>(i), x + spec.x, y + spec.y);
+                    ASSERT_TRUE(got == *expected || (std::isnan(got) && std::isnan(*expected)))
+                        << file << " " << channel.name << " " << x << " " << y << ": " << got << " " << *expected;
+                }
             }
         }
     }
