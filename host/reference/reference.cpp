@@ -3,10 +3,8 @@
 #include "host/reference/angles.h"
 #include "host/reference/brdf.h"
 #include "host/reference/lights.h"
+#include "host/reference/rows.h"
 #include "host/reference/surface.h"
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -122,8 +120,7 @@ Image shade(const Frame& frame, const AovSelection& aovs, int threads) {
             count(pixel, row_counts[row]);
         }
     };
-    tbb::task_arena arena(std::max(threads, 1));
-    arena.execute([&] { tbb::parallel_for(0, image.height, shade_row); });
+    for_each_row(image.height, threads, shade_row);
 
     for (const PixelCounts& row : row_counts) {
         image.counts.nonfinite += row.nonfinite;

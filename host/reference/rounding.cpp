@@ -3,10 +3,8 @@
 #include "host/reference/angles.h"
 #include "host/reference/brdf.h"
 #include "host/reference/lights.h"
+#include "host/reference/rows.h"
 #include "host/reference/surface.h"
-
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -152,8 +150,7 @@ RoundingScale rounding_scale(const Frame& frame, int threads) {
             }
         }
     };
-    tbb::task_arena arena(std::max(threads, 1));
-    arena.execute([&] { tbb::parallel_for(0, frame.planes.height(), scan_row); });
+    for_each_row(frame.planes.height(), threads, scan_row);
     return scale;
 }
 

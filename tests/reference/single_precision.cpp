@@ -35,10 +35,7 @@ float lobe_single(const glm::vec3& n, const glm::vec3& h, float shininess, LobeF
     if (shininess == 0.0F) {
         return 1.0F;
     }
-    const float nh = glm::dot(n, h);
-    if (!(nh > 0.0F)) {
-        return 0.0F;
-    }
+    const float nh = std::max(glm::dot(n, h), 1e-18F);
     const glm::vec3 cross = glm::cross(n, h);
     const float by_sine = 0.5F * std::log1p(-std::min(glm::dot(cross, cross), 1.0F));
     const float by_cosine = std::log(std::min(nh, 1.0F));
@@ -55,8 +52,9 @@ glm::vec3 reflect_single(const BoundMaterial& m, const Values& v, const glm::vec
     const float ne = std::max(glm::dot(n, e), 1e-4F);
     const glm::vec3 sum = l + e;
     const float length2 = glm::dot(sum, sum);
-    const glm::vec3 h = length2 < 1e-7F ? glm::vec3(0.0F) : sum / std::sqrt(length2);
-    const float eh = glm::clamp(glm::dot(e, h), 0.0F, 1.0F);
+    const float length = std::sqrt(std::max(length2, 1e-7F));
+    const glm::vec3 h = sum / length;
+    const float eh = length2 / (2.0F * length);
     const float lobe = lobe_single(n, h, v.n, form);
     const bool exact = m.specular == SpecularModel::blinn_phong_exact;
     const float norm =
