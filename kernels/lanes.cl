@@ -39,8 +39,8 @@ typedef int16 integer;
 #error "LANES must be 1, 4, 8 or 16"
 #endif
 
-// Comparisons give 1 for a true scalar and -1 for a true lane: masks are only ever combined with & | !, tested with
-// any_lane and spent in choose, all of which read both alike.
+// Comparisons give 1 for a true scalar and -1 for a true lane: masks are only ever combined with &, | and negated, tested
+// with any_lane and spent in choose, all of which read both alike.
 typedef integer mask;
 
 #ifdef __has_builtin
@@ -56,6 +56,10 @@ typedef integer mask;
 #endif
 
 #define FALSE_MASK ((mask)(0))
+
+static inline mask negated(mask m) {
+    return !m;
+}
 
 // a where the mask holds, b elsewhere.
 static inline real choose(mask m, real a, real b) {

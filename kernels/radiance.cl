@@ -46,8 +46,8 @@ static inline radiance choose_radiance(mask m, radiance a, radiance b) {
 #if OUTPUT_SPECULAR >= 0
     sum.specular = choose_rgb(m, a.specular, b.specular);
 #endif
-    sum.clamped = (m & a.clamped) | (!m & b.clamped);
-    sum.fractional_id = (m & a.fractional_id) | (!m & b.fractional_id);
+    sum.clamped = (m & a.clamped) | (negated(m) & b.clamped);
+    sum.fractional_id = (m & a.fractional_id) | (negated(m) & b.fractional_id);
     return sum;
 }
 
@@ -95,5 +95,15 @@ static inline radiance add_light(radiance sum, results out, mask mine, surface s
 #endif
     return sum;
 }
+
+#if OUTPUT_LIGHTS >= 0
+// Takes back a light's share where the sum over all lights came out as no finite number.
+static inline void clear_light(results out, int index, mask cleared) {
+    for (int plane = OUTPUT_LIGHTS + 3 * index; plane < OUTPUT_LIGHTS + 3 * index + 3; ++plane) {
+        const real before = load_plane(out.planes, out.stride, plane, out.pixel);
+        store_plane(out.planes, out.stride, plane, out.pixel, choose(cleared, splat(0.0f), before));
+    }
+}
+#endif
 
 #endif

@@ -34,10 +34,15 @@ __kernel void shade(__global const float* planes, ulong plane_stride, __global f
     store_rgb(out, OUTPUT_SPECULAR, deliver(sum.specular, s, good));
 #endif
 
-    const mask nonfinite = s.nonfinite | (s.alive & !finite);
+    const mask nonfinite = s.nonfinite | (s.alive & negated(finite));
     const mask clamped = s.alive & sum.clamped;
     const mask fractional = s.alive & sum.fractional_id;
     if (any_lane(nonfinite | clamped | fractional)) {
+#if OUTPUT_LIGHTS >= 0
+        for (int k = 0; k < frame->light_count; ++k) {
+            clear_light(out, k, nonfinite);
+        }
+#endif
         atomic_add(counts + COUNT_NONFINITE, count_lanes(nonfinite));
         atomic_add(counts + COUNT_CLAMPED, count_lanes(clamped));
         atomic_add(counts + COUNT_FRACTIONAL_IDS, count_lanes(fractional));

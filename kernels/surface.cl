@@ -103,7 +103,7 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
 #else
     s.coverage = splat(1.0f);
     s.unpremultiply = splat(1.0f);
-    mask covered = !FALSE_MASK;
+    mask covered = negated(FALSE_MASK);
 #endif
 
 #if PLANE_DEPTH >= 0
@@ -122,7 +122,7 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
 
     taint = fma(length2, splat(0.0f), taint); // a squared length that overflows counts as non-finite
     s.nonfinite = taint != splat(0.0f);
-    s.alive = covered & !s.nonfinite & (length2 >= splat(SHORTEST_NORMAL * SHORTEST_NORMAL));
+    s.alive = covered & negated(s.nonfinite) & (length2 >= splat(SHORTEST_NORMAL * SHORTEST_NORMAL));
 
     // Eye vector and position.
     s.position = make_vec3(splat(0.0f), splat(0.0f), splat(0.0f));
@@ -155,7 +155,7 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
 #elif VIEW_HAS_RAYS
     const mask placed = (p.x != splat(0.0f)) | (p.y != splat(0.0f)) | (p.z != splat(0.0f));
 #else
-    const mask placed = !FALSE_MASK;
+    const mask placed = negated(FALSE_MASK);
 #endif
     s.position = choose3(placed, p, s.position);
 #endif

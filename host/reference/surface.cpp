@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace clshade::reference {
 
@@ -170,6 +171,10 @@ std::vector<PlaneIndex> planes_to_be_finite(const Frame& frame) {
 bool all_finite(const Frame& frame, const std::vector<PlaneIndex>& planes, int x, int y) {
     const auto finite = [&](PlaneIndex plane) { return std::isfinite(frame.planes.at(plane, x, y)); };
     if (!std::all_of(planes.begin(), planes.end(), finite)) {
+        return false;
+    }
+    const glm::dvec3 normal = vector_at(frame, frame.roles.normal, x, y);
+    if (glm::dot(normal, normal) > std::numeric_limits<float>::max()) {
         return false;
     }
     if (frame.roles.depth == no_plane) {

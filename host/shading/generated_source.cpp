@@ -189,7 +189,7 @@ std::string material_choice(const Frame& frame) {
     text += "    radiance sum = no_radiance();\n";
     for (std::size_t k = 1; k < frame.materials.size(); ++k) {
         text += fmt::format("    const mask mine_{0} = {1};\n"
-                            "    rest = rest & !mine_{0};\n"
+                            "    rest = rest & negated(mine_{0});\n"
                             "    if (any_lane(mine_{0})) {{\n"
                             "        sum = choose_radiance(mine_{0}, shade_material_{0}(in, s, mine_{0}, out, "
                             "materials + {0}, lights, light_count), sum);\n"
