@@ -174,7 +174,7 @@ bool all_finite(const Frame& frame, const std::vector<PlaneIndex>& planes, int x
         return false;
     }
     const glm::dvec3 normal = vector_at(frame, frame.roles.normal, x, y);
-    if (glm::dot(normal, normal) > std::numeric_limits<float>::max()) {
+    if (glm::dot(normal, normal) > static_cast<double>(std::numeric_limits<float>::max())) {
         return false;
     }
     if (frame.roles.depth == no_plane) {
