@@ -6,6 +6,8 @@
 #include "host/shading/shader.h"
 
 #include <optional>
+#include <set>
+#include <string>
 
 namespace clshade::cli {
 
@@ -22,12 +24,15 @@ class Session {
     [[nodiscard]] Shader& shader(const AovSelection& aovs);
     /// --lanes; for `auto` what `bench --tune` stored for this device, else 0: the shader's own choice.
     [[nodiscard]] int lanes();
+    /// True the first time a program is met: its build belongs to that frame and to no other.
+    [[nodiscard]] bool is_new_program(const std::string& identity) { return programs_.insert(identity).second; }
 
   private:
     CommonOptions options_;
     std::optional<DeviceInfo> info_;
     std::optional<Device> device_;
     std::optional<Shader> shader_;
+    std::set<std::string> programs_;
 };
 
 } // namespace clshade::cli

@@ -82,14 +82,16 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
     const ShadedImage shaded = shader.shade(loaded.frame);
     const double shading = watch.lap();
     const double kernel = sum_of(shaded.kernel_times);
-    outcome.stages.add("build", shaded.build_milliseconds);
+    const bool first = session.is_new_program(shaded.identity);
+    const double build = first ? shaded.build_milliseconds : 0.0;
+    outcome.stages.add("build", build);
     outcome.stages.add("transfer", shaded.transfer_milliseconds);
     outcome.stages.add("kernel", kernel);
-    const double rest = shading - shaded.build_milliseconds - shaded.transfer_milliseconds - kernel;
+    const double rest = shading - build - shaded.transfer_milliseconds - kernel;
     outcome.stages.add("prepare", rest > 0.0 ? rest : 0.0);
     outcome.kernels = shaded.kernel_times;
     outcome.counts = shaded.counts;
-    outcome.built_from_cache = shaded.built_from_cache;
+    outcome.build = !first ? "" : (shaded.built_from_cache ? "from the cache" : "built");
     refuse_filtered_ids(job.input.string(), shaded.counts);
 
     progress.update("writing " + job.output.filename().string(), 0.6);

@@ -41,8 +41,8 @@ struct FrameOutcome {
     StageTimes stages;
     std::vector<KernelTime> kernels;
     std::vector<std::string> warnings;
-    std::string plan; ///< of a dry run: what would be done
-    bool built_from_cache = false;
+    std::string plan;  ///< of a dry run: what would be done
+    std::string build; ///< "built" or "from the cache" for the first frame of a program, else empty
 };
 
 /// Shades one frame; the device is opened once header and scene have proved good. Throws UsageError, RuntimeFailure,

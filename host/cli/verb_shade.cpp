@@ -210,20 +210,20 @@ class ShadeRun {
         } else if (!outcome.skipped.empty()) {
             fmt::print("{}{} skipped: {}\n", label_of(job), job.output.string(), outcome.skipped);
         } else {
-            fmt::print("{}{} -> {}  {}x{}  {} ms\n", label_of(job), job.input.string(), job.output.string(),
-                       outcome.width, outcome.height, format_total(outcome));
+            fmt::print("{}{} -> {}  {}x{}  {}\n", label_of(job), job.input.string(), job.output.string(), outcome.width,
+                       outcome.height, format_total(outcome));
         }
         std::fflush(stdout);
     }
 
     [[nodiscard]] std::string format_total(const FrameOutcome& outcome) const {
-        std::string text = fmt::format("{:.0f}", outcome.stages.total());
+        std::string text = fmt::format("{:.0f} ms", outcome.stages.total());
         if (options_.common.verbosity > 0) {
             std::string parts;
             for (const auto& [stage, milliseconds] : outcome.stages.stages()) {
                 parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", stage, milliseconds);
             }
-            text += fmt::format(" ({}; kernel {})", parts, outcome.built_from_cache ? "from the cache" : "built");
+            text += fmt::format(" ({}{}{})", parts, outcome.build.empty() ? "" : "; kernel ", outcome.build);
         }
         return text;
     }
