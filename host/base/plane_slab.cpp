@@ -14,7 +14,8 @@ std::size_t round_up(std::size_t value, std::size_t multiple) {
 
 PlaneSlab::PlaneSlab(int width, int height, int planes) : width_(width), height_(height), count_(planes) {
     if (width < 1 || height < 1 || planes < 0) {
-        throw RuntimeFailure(fmt::format("an image of {}x{} pixels with {} planes cannot be shaded", width, height, planes));
+        throw RuntimeFailure(
+            fmt::format("an image of {}x{} pixels with {} planes cannot be shaded", width, height, planes));
     }
     pitch_ = static_cast<int>(round_up(static_cast<std::size_t>(width), row_alignment));
     padded_pixels_ = round_up(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(height), plane_alignment);

@@ -14,7 +14,7 @@ struct DemoFrame {
     PlaneSlab planes;
     std::vector<std::string> plane_names; ///< "Normal.X", ..., "Position.X", "Depth.Z", "Albedo.R", "F0.R",
                                           ///< "Roughness.V", "MaterialID.V", "UV.A" (coverage)
-    Camera camera; ///< with its vertical field of view
+    Camera camera;                        ///< with its vertical field of view
 };
 
 /// Renders frame `index` (1-based) of `count` at width x height: spheres, a ground, letters, several materials with
