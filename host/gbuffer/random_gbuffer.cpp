@@ -54,6 +54,17 @@ class Generator {
     std::uint64_t state_;
 };
 
+/// The nearest number with the 24 bits of a float, by Veltkamp's splitting. Not by conversion to float and back: GCC 12
+/// drops that pair of conversions where its SLP vectoriser takes several at once (-O2).
+double rounded(double x) {
+    const double scaled = x * (0x1p29 + 1.0);
+    return scaled - (scaled - x);
+}
+
+glm::dvec3 rounded(const glm::dvec3& v) {
+    return {rounded(v.x), rounded(v.y), rounded(v.z)};
+}
+
 /// A perspective camera that looks across the origin; nothing about it is exactly representable in single precision.
 View random_frame_view(int width, int height) {
     View view;
@@ -142,7 +153,7 @@ double random_coverage(Generator& random) {
     if (kind == 0) {
         return 0.0;
     }
-    return kind < 6 ? static_cast<double>(static_cast<float>(partial)) : 1.0;
+    return kind < 6 ? rounded(partial) : 1.0;
 }
 
 /// A vector at right angles to `axis`, pushed towards it by up to `reach` either way.
@@ -240,15 +251,10 @@ void put(Frame& frame, PlaneIndex plane, int x, int y, double value) {
     }
 }
 
-/// Planes of parameters are premultiplied, as filtered render passes are.
 void put(Frame& frame, const std::array<PlaneIndex, 3>& planes, int x, int y, const glm::dvec3& value) {
     for (int i = 0; i < 3; ++i) {
         put(frame, planes[static_cast<std::size_t>(i)], x, y, value[i]);
     }
-}
-
-glm::dvec3 rounded(const glm::dvec3& v) {
-    return glm::dvec3(glm::vec3(v));
 }
 
 void fill_pixel(Frame& frame, Generator& random, int x, int y) {
@@ -273,6 +279,7 @@ void fill_pixel(Frame& frame, Generator& random, int x, int y) {
     put(frame, frame.roles.normal, x, y, normal2 > 0.0 ? length / std::sqrt(normal2) * normal : normal);
     put(frame, frame.roles.position, x, y, position);
     put(frame, frame.roles.coverage, x, y, coverage);
+    // Parameters are premultiplied, as filtered render passes are.
     put(frame, material.albedo.planes, x, y, albedo * coverage);
     put(frame, material.f0.planes, x, y, f0 * coverage);
     put(frame, material.shininess.planes[0], x, y, n * coverage);
