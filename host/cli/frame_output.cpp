@@ -8,20 +8,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <fstream>
 #include <string_view>
 
 namespace clshade::cli {
 
-namespace {
-
-constexpr std::array<std::string_view, 10> compressions{"none",  "rle", "zips", "zip",  "piz",
-                                                        "pxr24", "b44", "b44a", "dwaa", "dwab"};
-
 bool is_png(const std::filesystem::path& file) {
-    const std::string extension = file.extension().string();
-    return extension == ".png" || extension == ".PNG";
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".png";
 }
+
+namespace {
 
 // A PNG is whole if it ends with the chunk IEND (length 0, name, checksum).
 bool is_whole_png(const std::filesystem::path& file) {
@@ -107,12 +107,12 @@ OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, co
     return image;
 }
 
-void write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings) {
+std::uint64_t write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings) {
     if (is_png(file)) {
         write_png(file, image);
-    } else {
-        write_exr(file, image, settings);
+        return 0;
     }
+    return write_exr(file, image, settings);
 }
 
 bool is_up_to_date(const std::filesystem::path& output, const std::vector<std::filesystem::path>& sources) {
@@ -130,12 +130,7 @@ bool is_up_to_date(const std::filesystem::path& output, const std::vector<std::f
 }
 
 void refuse_same_file(const std::filesystem::path& output, const std::filesystem::path& source) {
-    if (source.empty()) {
-        return;
-    }
-    std::error_code ignored; // files that do not exist are not the same
-    if (std::filesystem::equivalent(output, source, ignored) ||
-        output.lexically_normal() == source.lexically_normal()) {
+    if (!source.empty() && same_file(output, source)) {
         throw UsageError(fmt::format("{}: the output would overwrite the input; choose another name", output.string()));
     }
 }
@@ -143,19 +138,10 @@ void refuse_same_file(const std::filesystem::path& output, const std::filesystem
 void parse_compression(const std::string& text, ExrSettings& settings) {
     const std::size_t colon = text.find(':');
     settings.compression = text.substr(0, colon);
-    static_cast<void>(parse_choice("--compression", settings.compression, compressions));
-    if (colon == std::string::npos) {
-        return;
+    if (colon != std::string::npos) {
+        settings.level = parse_number("--compression level", text.substr(colon + 1), 0.0);
     }
-    const std::string level = text.substr(colon + 1);
-    if (settings.compression == "zip" || settings.compression == "zips") {
-        settings.level = static_cast<double>(parse_whole("--compression level", level, 1, 9));
-    } else if (settings.compression == "dwaa" || settings.compression == "dwab") {
-        settings.level = parse_number("--compression level", level, 0.0);
-    } else {
-        throw UsageError(
-            fmt::format("--compression: {} takes no level; zip, zips, dwaa and dwab do", settings.compression));
-    }
+    check_exr_settings(settings);
 }
 
 } // namespace clshade::cli

@@ -5,6 +5,7 @@
 #include "host/images/image_writer.h"
 #include "host/shading/shader.h"
 
+#include <cstdint>
 #include <filesystem>
 
 namespace clshade::cli {
@@ -13,8 +14,11 @@ namespace clshade::cli {
 [[nodiscard]] OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, const ChosenScene& scene,
                                       const DeviceInfo& device);
 
-/// Writes EXR or PNG, by the extension.
-void write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings);
+/// True for .png in any case.
+[[nodiscard]] bool is_png(const std::filesystem::path& file);
+
+/// Writes EXR or PNG, by the extension. Returns how many values did not fit in half and were stored as +-65504.
+std::uint64_t write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings);
 
 /// True if the output is there, readable to its end, and no older than any of `sources` (empty names are left out).
 [[nodiscard]] bool is_up_to_date(const std::filesystem::path& output,

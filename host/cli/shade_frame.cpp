@@ -96,12 +96,17 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
 
     progress.update("writing " + job.output.filename().string(), 0.6);
     const OutputImage image = make_output(loaded, shaded, scene, session.info());
-    write_output(job.output, image, settings.exr);
+    const std::uint64_t too_large = write_output(job.output, image, settings.exr);
     if (!job.preview.empty()) {
         write_png(job.preview, image);
     }
     outcome.stages.add("write", watch.lap());
     outcome.warnings = std::move(loaded.warnings);
+    if (too_large > 0) {
+        outcome.warnings.push_back(fmt::format("{}: {} values beyond 65504 do not fit in half and were clamped; write "
+                                               "-d float",
+                                               job.output.string(), too_large));
+    }
     for (std::string& warning : count_warnings(job.input.string(), shaded.counts)) {
         outcome.warnings.push_back(std::move(warning));
     }

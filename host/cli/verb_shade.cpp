@@ -149,7 +149,7 @@ class ShadeRun {
   private:
     void refuse_what_png_cannot() const {
         const bool more = options_.aovs.size() + options_.keep.size() > 0;
-        if (more && std::filesystem::path(options_.output).extension() == ".png") {
+        if (more && is_png(options_.output)) {
             throw UsageError(
                 fmt::format("{}: a PNG preview has no room for --aov and --keep; write an .exr", options_.output));
         }
