@@ -41,6 +41,8 @@ class NaiveRival {
     ~NaiveRival();
     NaiveRival(const NaiveRival&) = delete;
     NaiveRival& operator=(const NaiveRival&) = delete;
+    NaiveRival(NaiveRival&&) = delete;
+    NaiveRival& operator=(NaiveRival&&) = delete;
     /// False where the device has no images.
     [[nodiscard]] static bool supported(const Device& device);
     double run();

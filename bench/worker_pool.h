@@ -15,6 +15,8 @@ class WorkerPool {
     ~WorkerPool();
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
+    WorkerPool(WorkerPool&&) = delete;
+    WorkerPool& operator=(WorkerPool&&) = delete;
 
     /// Work on items [begin, end).
     using Work = std::function<void(std::size_t begin, std::size_t end)>;

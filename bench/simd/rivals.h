@@ -26,7 +26,7 @@ struct DistantLight {
 };
 
 struct Scene {
-    float eye[3];
+    float eye[3] = {0.0F, 0.0F, 0.0F};
     const DistantLight* lights = nullptr;
     int light_count = 0;
 };

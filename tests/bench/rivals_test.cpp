@@ -136,7 +136,8 @@ TEST(DeviceRivals, NaiveKernelAgreesWithTheReference) {
     for (int p = 0; p < 3; ++p) {
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
-                picture.at(p, x, y) = pixels[static_cast<std::size_t>((y * width + x) * 4 + p)];
+                picture.at(p, x, y) = pixels[(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * 4 +
+                                             static_cast<std::size_t>(p)];
             }
         }
     }

@@ -14,10 +14,8 @@
 namespace clshade {
 namespace {
 
-using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Property;
 using ::testing::ThrowsMessage;
 
 TEST(BenchRows, KeysAreStable) {

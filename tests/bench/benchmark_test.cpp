@@ -1,0 +1,210 @@
+// The whole runner on small pictures: statuses, figures, rivals, deck rows, a broken kernel, the lane tuning.
+#include "bench/benchmark.h"
+#include "host/base/error.h"
+#include "host/device/device.h"
+#include "host/shading/kernel_library.h"
+#include "tests/device/temporary_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace clshade {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+Device cpu() {
+    return Device(select_device(list_devices(), "cpu"));
+}
+
+BenchOptions quick(const std::string& filter) {
+    BenchOptions options;
+    options.quick = true;
+    options.width = 160;
+    options.height = 90;
+    options.filter = filter;
+    return options;
+}
+
+const RivalResult& rival(const BenchResult& result, const std::string& name) {
+    const auto found = std::find_if(result.against.begin(), result.against.end(),
+                                    [&name](const RivalResult& each) { return each.name == name; });
+    if (found == result.against.end()) {
+        throw std::out_of_range(result.key + " has no rival " + name);
+    }
+    return *found;
+}
+
+TEST(Benchmark, EveryRowIsTimedAndHasPlausibleFigures) {
+    Device device = cpu();
+    const BenchOptions options = quick("");
+    const BenchReport report = run_benchmarks(device, options);
+    std::vector<std::string> keys;
+    for (const BenchResult& result : report.results) {
+        keys.push_back(result.key);
+        ASSERT_EQ(result.status, BenchStatus::ok) << result.key << ": " << result.reason;
+        EXPECT_EQ(result.width, 160);
+        EXPECT_EQ(result.height, 90);
+        EXPECT_EQ(result.lights, result.key.find("distant8") != std::string::npos ? 8 : 1) << result.key;
+        EXPECT_EQ(result.environments, 0);
+        EXPECT_EQ(result.layers, 1);
+        EXPECT_GT(result.lanes, 0);
+        EXPECT_EQ(result.rounds, 3);
+        EXPECT_GT(result.min_ms, 0.0);
+        EXPECT_GE(result.median_ms, result.min_ms);
+        EXPECT_GE(result.spread, 0.0);
+        // 13 or 14 planes read, at least 3 written.
+        EXPECT_GE(result.bytes_per_pixel, 64.0) << result.key;
+        EXPECT_LE(result.bytes_per_pixel, 72.0) << result.key;
+        EXPECT_NEAR(result.mpix_per_s, 160 * 90 * 1e-3 / result.median_ms, 1e-9 * result.mpix_per_s);
+        EXPECT_NEAR(result.gb_per_s, result.mpix_per_s * result.bytes_per_pixel * 1e-3, 1e-9 * result.gb_per_s);
+        EXPECT_GT(result.build_cold_ms, result.build_cached_ms) << result.key;
+        EXPECT_FALSE(result.against.empty());
+        for (const RivalResult& each : result.against) {
+            ASSERT_EQ(each.status, BenchStatus::ok) << result.key << " against " << each.name << ": " << each.reason;
+            EXPECT_GT(each.median_ms, 0.0);
+            EXPECT_GT(each.ratio, 0.0);
+            EXPECT_GT(each.rounds, 0);
+        }
+    }
+    EXPECT_EQ(keys, benchmark_keys(options));
+}
+
+TEST(Benchmark, TheNaiveKernelAndTheReferenceAreFoundSlower) {
+    Device device = cpu();
+    BenchOptions options = quick("^shade\\.blinn_phong\\.lambert\\.distant1\\.");
+    options.width = 640;
+    options.height = 360;
+    const BenchReport report = run_benchmarks(device, options);
+    ASSERT_EQ(report.results.size(), 1U);
+    const BenchResult& row = report.results.front();
+    ASSERT_EQ(row.against.size(), 6U);
+    // Measured near 1/40 and 1/100: a factor of three is no question of noise.
+    EXPECT_LT(rival(row, "naive_opencl").ratio, 1.0 / 3.0);
+    EXPECT_LT(rival(row, "reference").ratio, 1.0 / 3.0);
+    // It moves the same bytes, but a hand-made loop over 13 planes is not 3 times faster than memory allows.
+    EXPECT_GT(rival(row, "stream_cpp").ratio, 1.0 / 3.0);
+}
+
+TEST(Benchmark, AFilterLeavesTheBaselineInTheRunButNotInTheReport) {
+    Device device = cpu();
+    const BenchReport report = run_benchmarks(device, quick("oren_nayar\\.distant1"));
+    ASSERT_EQ(report.results.size(), 1U);
+    const BenchResult& row = report.results.front();
+    EXPECT_EQ(row.key, "shade.blinn_phong.oren_nayar.distant1.160x90");
+    EXPECT_GT(rival(row, "shade.blinn_phong.lambert.distant1.160x90").ratio, 0.0);
+
+    ASSERT_EQ(report.deck.size(), 4U);
+    EXPECT_EQ(report.deck[0].status, BenchStatus::ok);
+    ASSERT_TRUE(report.deck[0].ratio.has_value());
+    EXPECT_EQ(report.deck[0].ratio, rival(row, "shade.blinn_phong.lambert.distant1.160x90").ratio);
+    for (std::size_t i = 1; i < report.deck.size(); ++i) {
+        EXPECT_EQ(report.deck[i].status, BenchStatus::unsupported);
+        EXPECT_THAT(report.deck[i].reason, HasSubstr("not built yet"));
+        EXPECT_FALSE(report.deck[i].ratio.has_value());
+    }
+}
+
+TEST(Benchmark, DeckRowsWithoutTheirKernelAreSkipped) {
+    Device device = cpu();
+    const BenchReport report = run_benchmarks(device, quick("point1"));
+    EXPECT_EQ(report.deck.at(0).status, BenchStatus::skipped);
+    EXPECT_FALSE(report.deck.at(0).reason.empty());
+}
+
+TEST(Benchmark, AFilterThatMatchesNothingNamesTheKeys) {
+    Device device = cpu();
+    EXPECT_THAT([&] { (void)run_benchmarks(device, quick("skin")); },
+                ThrowsMessage<UsageError>(HasSubstr("shade.blinn_phong.oren_nayar.distant1.160x90")));
+}
+
+TEST(Benchmark, OnOtherThanCpuDevicesHostRivalsAreSkipped) {
+    DeviceInfo info = select_device(list_devices(), "cpu");
+    info.kind = DeviceKind::other; // the same device under another flag
+    Device device(info);
+    const BenchReport report = run_benchmarks(device, quick("^shade\\.blinn_phong\\.lambert\\.distant1\\."));
+    const BenchResult& row = report.results.at(0);
+    ASSERT_EQ(row.status, BenchStatus::ok) << row.reason;
+    for (const char* name : {"stream_cpp", "openmp_simd", "hand_simd", "reference"}) {
+        EXPECT_EQ(rival(row, name).status, BenchStatus::skipped) << name;
+        EXPECT_FALSE(rival(row, name).reason.empty()) << name;
+    }
+    EXPECT_EQ(rival(row, "stream_opencl").status, BenchStatus::ok);
+    EXPECT_EQ(rival(row, "naive_opencl").status, BenchStatus::ok);
+}
+
+/// Writes one of the kernel files, changed, into a folder for --kernel-dir.
+void write_changed(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+}
+
+TEST(Benchmark, AKernelThatComputesSomethingElseIsAnErrorNotARecord) {
+    Device device = cpu();
+    const tests::TemporaryFolder folder;
+    // The linear normaliser of section 2, ten times too small.
+    std::string text = kernel_sources().text("blinn_phong.cl");
+    const std::size_t at = text.find("0.0397436");
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, 9, "0.0039743");
+    write_changed(folder.path(), "blinn_phong.cl", text);
+    BenchOptions options = quick("^shade\\.blinn_phong\\.lambert\\.distant1\\.");
+    options.kernel_dir = folder.path();
+    const BenchReport report = run_benchmarks(device, options);
+    EXPECT_EQ(report.results.at(0).status, BenchStatus::error);
+    EXPECT_THAT(report.results.at(0).reason, HasSubstr("the reference"));
+    EXPECT_EQ(report.deck.at(0).status, BenchStatus::skipped);
+}
+
+TEST(Benchmark, AKernelThatDoesNotBuildFailsItsRowOnly) {
+    Device device = cpu();
+    const tests::TemporaryFolder folder;
+    write_changed(folder.path(), "blinn_phong.cl", "this is no kernel\n");
+    BenchOptions options = quick("point1|spot1");
+    options.kernel_dir = folder.path();
+    const BenchReport report = run_benchmarks(device, options);
+    ASSERT_EQ(report.results.size(), 2U);
+    for (const BenchResult& result : report.results) {
+        EXPECT_EQ(result.status, BenchStatus::error);
+        EXPECT_FALSE(result.reason.empty());
+        EXPECT_EQ(result.width, 160);
+    }
+}
+
+TEST(Benchmark, ProgressCountsUpToTheTotal) {
+    Device device = cpu();
+    std::vector<int> seen;
+    int total = 0;
+    (void)run_benchmarks(device, quick("point1"), [&](const std::string& what, int done, int of) {
+        EXPECT_FALSE(what.empty());
+        EXPECT_LE(done, of);
+        seen.push_back(done);
+        total = of;
+    });
+    EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+    EXPECT_FALSE(seen.empty());
+    EXPECT_GT(total, 0);
+}
+
+TEST(TuneLanes, MeasuresEveryWidthAndChoosesOneOfThem) {
+    Device device = cpu();
+    const LaneTuning tuning = tune_lanes(device, quick(""));
+    ASSERT_EQ(tuning.times.size(), 4U);
+    std::vector<int> lanes;
+    for (const LaneTime& each : tuning.times) {
+        lanes.push_back(each.lanes);
+        EXPECT_EQ(each.status, BenchStatus::ok) << each.reason;
+        EXPECT_GT(each.median_ms, 0.0);
+    }
+    EXPECT_THAT(lanes, ElementsAre(1, 4, 8, 16));
+    EXPECT_THAT(lanes, ::testing::Contains(tuning.best));
+}
+
+} // namespace
+} // namespace clshade
