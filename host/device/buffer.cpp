@@ -30,8 +30,9 @@ double mebibytes(std::uint64_t bytes) {
 
 std::shared_ptr<Buffer::State> allocate(Device& device, std::size_t bytes, cl_mem_flags flags, void* host) {
     const DeviceInfo& info = device.info();
-    if (bytes == 0)
+    if (bytes == 0) {
         throw RuntimeFailure(fmt::format("device '{}': a buffer of 0 bytes was asked for", info.name));
+    }
     if (bytes > info.max_allocation) {
         throw RuntimeFailure(
             fmt::format("device '{}' gives at most {:.1f} MiB in one piece, {:.1f} MiB are needed; set "
@@ -70,16 +71,18 @@ void check_range(const Buffer::State& state, std::size_t bytes) {
 }
 
 Buffer::State& open(const std::shared_ptr<Buffer::State>& state) {
-    if (!state)
+    if (!state) {
         throw RuntimeFailure("an empty device buffer was used");
+    }
     return *state;
 }
 
 } // namespace
 
 Buffer::State::~State() {
-    if (host == nullptr)
+    if (host == nullptr) {
         return; // the driver itself keeps its memory until enqueued work is done
+    }
     try {
         unmap();
         device->queue.finish();
@@ -88,16 +91,18 @@ Buffer::State::~State() {
 }
 
 void Buffer::State::map() {
-    if (!zero_copy || mapping != nullptr)
+    if (!zero_copy || mapping != nullptr) {
         return;
+    }
     mapping = guarded(device->info, "mapping a buffer", [this] {
         return device->queue.enqueueMapBuffer(memory, CL_TRUE, CL_MAP_READ | CL_MAP_WRITE, 0, size);
     });
 }
 
 void Buffer::State::unmap() {
-    if (mapping == nullptr)
+    if (mapping == nullptr) {
         return;
+    }
     void* const pointer = mapping;
     mapping = nullptr;
     guarded(device->info, "unmapping a buffer", [&] { device->queue.enqueueUnmapMemObject(memory, pointer); });
@@ -155,8 +160,9 @@ void Buffer::download() {
 void Buffer::write(std::span<const std::byte> bytes) {
     State& state = open(state_);
     check_range(state, bytes.size());
-    if (bytes.empty())
+    if (bytes.empty()) {
         return;
+    }
     state.unmap();
     guarded(state.device->info, "copying to the device",
             [&] { state.device->queue.enqueueWriteBuffer(state.memory, CL_TRUE, 0, bytes.size(), bytes.data()); });
@@ -165,8 +171,9 @@ void Buffer::write(std::span<const std::byte> bytes) {
 void Buffer::read(std::span<std::byte> bytes) {
     State& state = open(state_);
     check_range(state, bytes.size());
-    if (bytes.empty())
+    if (bytes.empty()) {
         return;
+    }
     state.unmap();
     guarded(state.device->info, "copying from the device",
             [&] { state.device->queue.enqueueReadBuffer(state.memory, CL_TRUE, 0, bytes.size(), bytes.data()); });
@@ -175,8 +182,9 @@ void Buffer::read(std::span<std::byte> bytes) {
 void Buffer::write_rows(const std::byte* host, std::size_t host_pitch, std::size_t device_pitch, std::size_t row_bytes,
                         std::size_t rows) {
     State& state = open(state_);
-    if (row_bytes == 0 || rows == 0)
+    if (row_bytes == 0 || rows == 0) {
         return;
+    }
     check_rows(state, host_pitch, device_pitch, row_bytes, rows);
     state.unmap();
     const std::array<cl::size_type, 3> origin{};
@@ -189,8 +197,9 @@ void Buffer::write_rows(const std::byte* host, std::size_t host_pitch, std::size
 void Buffer::read_rows(std::byte* host, std::size_t host_pitch, std::size_t device_pitch, std::size_t row_bytes,
                        std::size_t rows) const {
     State& state = open(state_);
-    if (row_bytes == 0 || rows == 0)
+    if (row_bytes == 0 || rows == 0) {
         return;
+    }
     check_rows(state, host_pitch, device_pitch, row_bytes, rows);
     state.unmap();
     const std::array<cl::size_type, 3> origin{};

@@ -42,8 +42,9 @@ cl::Device limited(const cl::Device& device, const DeviceInfo& info, unsigned th
 } // namespace
 
 Device::Device(const DeviceInfo& info, int threads) : state_(std::make_shared<State>()) {
-    if (threads < 0)
+    if (threads < 0) {
         throw DeviceError(fmt::format("--threads {} is negative; 0 uses all", threads));
+    }
     state_->info = info;
     state_->device = find(info);
     try {

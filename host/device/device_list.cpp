@@ -1,6 +1,8 @@
 // Listing devices and choosing among them.
 #include "host/device/device_list.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -24,12 +26,15 @@ std::string lower(std::string_view text) {
 }
 
 DeviceKind kind_of(cl_device_type type) {
-    if ((type & CL_DEVICE_TYPE_CPU) != 0)
+    if ((type & CL_DEVICE_TYPE_CPU) != 0) {
         return DeviceKind::cpu;
-    if ((type & CL_DEVICE_TYPE_GPU) != 0)
+    }
+    if ((type & CL_DEVICE_TYPE_GPU) != 0) {
         return DeviceKind::gpu;
-    if ((type & CL_DEVICE_TYPE_ACCELERATOR) != 0)
+    }
+    if ((type & CL_DEVICE_TYPE_ACCELERATOR) != 0) {
         return DeviceKind::accelerator;
+    }
     return DeviceKind::other;
 }
 
@@ -50,6 +55,14 @@ DeviceInfo info_of(const cl::Device& device, const std::string& platform) {
     return info;
 }
 
+/// Why a platform may show nothing. PoCL goes without a device, and without a word, when it cannot write its own cache.
+std::string without_devices(const std::string& platform) {
+    return fmt::format("OpenCL platform '{}' shows no device{}", platform,
+                       platform == "Portable Computing Language"
+                           ? "; PoCL needs a writable cache folder, set POCL_CACHE_DIR to one"
+                           : "");
+}
+
 void add_platform(const cl::Platform& platform, std::size_t number, OpenClDevices& found) {
     std::string name = fmt::format("platform {}", number);
     std::vector<cl::Device> devices;
@@ -57,11 +70,14 @@ void add_platform(const cl::Platform& platform, std::size_t number, OpenClDevice
         name = trimmed(platform.getInfo<CL_PLATFORM_NAME>());
         platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
     } catch (const cl::Error& error) {
-        if (error.err() != CL_DEVICE_NOT_FOUND) { // a platform without devices is no fault
+        if (error.err() != CL_DEVICE_NOT_FOUND) {
             found.warnings.push_back(fmt::format("OpenCL platform '{}' cannot be used: {} gave {}", name, error.what(),
                                                  error_name(error.err())));
+            return;
         }
-        return;
+    }
+    if (devices.empty()) {
+        found.warnings.push_back(without_devices(name));
     }
     for (const cl::Device& device : devices) {
         try {
@@ -91,10 +107,11 @@ std::string candidates(const std::vector<DeviceInfo>& devices) {
 }
 
 std::string no_device_text(const DeviceList& list) {
-    std::string text = "no OpenCL device; install pocl-opencl-icd or a GPU driver";
-    for (const std::string& warning : list.warnings)
-        text += fmt::format(" ({})", warning);
-    return text;
+    if (list.warnings.empty()) {
+        return "no OpenCL device; install pocl-opencl-icd or a GPU driver";
+    }
+    return fmt::format("no OpenCL device: {}; mend that, or install pocl-opencl-icd or a GPU driver",
+                       fmt::join(list.warnings, "; "));
 }
 
 /// Digits only: always an index, never part of a name; otherwise "1" would pick an H100 where there is no device 1.
@@ -130,11 +147,13 @@ std::vector<DeviceInfo> matches(const DeviceList& list, std::string_view selecto
 }
 
 DeviceInfo select_default(const DeviceList& list) {
-    if (list.devices.size() == 1)
+    if (list.devices.size() == 1) {
         return list.devices.front();
+    }
     const auto gpus = matching(list, [](const DeviceInfo& device) { return device.kind == DeviceKind::gpu; });
-    if (gpus.size() == 1)
+    if (gpus.size() == 1) {
         return gpus.front();
+    }
     throw DeviceError(fmt::format("several OpenCL devices fit; choose one with --device: {}",
                                   candidates(gpus.empty() ? list.devices : gpus)));
 }
@@ -166,8 +185,9 @@ OpenClDevices find_devices() {
             found.warnings.push_back(fmt::format("{} gave {}", error.what(), error_name(error.err())));
         }
     }
-    for (std::size_t i = 0; i < platforms.size(); ++i)
+    for (std::size_t i = 0; i < platforms.size(); ++i) {
         add_platform(platforms[i], i, found);
+    }
     return found;
 }
 
@@ -175,16 +195,19 @@ DeviceList list_devices() {
     OpenClDevices found = find_devices();
     DeviceList list;
     list.warnings = std::move(found.warnings);
-    for (auto& device : found.devices)
+    for (auto& device : found.devices) {
         list.devices.push_back(std::move(device.info));
+    }
     return list;
 }
 
 DeviceInfo select_device(const DeviceList& list, std::string_view selector) {
-    if (list.devices.empty())
+    if (list.devices.empty()) {
         throw DeviceError(no_device_text(list));
-    if (selector.empty())
+    }
+    if (selector.empty()) {
         return select_default(list);
+    }
     auto found = matches(list, selector);
     if (found.empty()) {
         throw DeviceError(fmt::format("no device matches '{}'; there are: {}", selector, candidates(list.devices)));

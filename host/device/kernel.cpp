@@ -33,8 +33,9 @@ void Kernel::set_argument(unsigned index, const Buffer& buffer) {
     }
     guarded_kernel(*state_->program, fmt::format("setting argument {} of", index), state_->name,
                    [&] { state_->kernel.setArg(index, buffer.state()->memory); });
-    if (state_->buffers.size() <= index)
+    if (state_->buffers.size() <= index) {
         state_->buffers.resize(std::size_t{index} + 1);
+    }
     state_->buffers[index] = buffer.state();
 }
 
@@ -51,8 +52,9 @@ void Kernel::launch(std::size_t global, std::size_t local, std::size_t offset) {
     }
     // A zero-copy buffer that the host still owns goes to the device; buffers the kernel only writes need no upload().
     for (const auto& buffer : state_->buffers) {
-        if (buffer)
+        if (buffer) {
             buffer->unmap();
+        }
     }
     state_->last = cl::Event();
     guarded_kernel(*state_->program, "launching", state_->name, [&] {

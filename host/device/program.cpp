@@ -50,8 +50,9 @@ std::string identity_of(const Device::State& device, const std::string& source, 
         parts.push_back(value == nullptr ? std::string() : fmt::format("{}={}", name, value));
     }
     std::string text;
-    for (const std::string& part : parts)
+    for (const std::string& part : parts) {
         text += fmt::format("{}:{}\n", part.size(), part);
+    }
     return hash_hex(std::string_view(text));
 }
 
@@ -63,15 +64,19 @@ std::string trimmed_log(const std::string& log) {
     while (std::getline(lines, line)) {
         line.erase(std::remove(line.begin(), line.end(), '\0'), line.end());
         const auto last = line.find_last_not_of(" \t\r");
-        if (last == std::string::npos)
+        if (last == std::string::npos) {
             continue;
-        if (++count <= most_log_lines)
+        }
+        if (++count <= most_log_lines) {
             result += line.substr(0, last + 1) + "\n";
+        }
     }
-    if (count > most_log_lines)
+    if (count > most_log_lines) {
         result += fmt::format("... and {} more lines\n", count - most_log_lines);
-    if (!result.empty())
+    }
+    if (!result.empty()) {
         result.pop_back();
+    }
     return result;
 }
 
@@ -110,15 +115,18 @@ struct StoredProgram {
 
 std::vector<std::byte> pack(const std::set<std::string>& shapes, const std::vector<unsigned char>& binary) {
     std::string text;
-    for (const std::string& shape : shapes)
+    for (const std::string& shape : shapes) {
         text += shape + "\n";
+    }
     text += "\n";
     std::vector<std::byte> bytes;
     bytes.reserve(text.size() + binary.size());
-    for (const char c : text)
+    for (const char c : text) {
         bytes.push_back(static_cast<std::byte>(c));
-    for (const unsigned char c : binary)
+    }
+    for (const unsigned char c : binary) {
         bytes.push_back(static_cast<std::byte>(c));
+    }
     return bytes;
 }
 
@@ -146,8 +154,9 @@ StoredProgram unpack(const std::vector<std::byte>& bytes) {
 /// The program from its stored binary; nothing if the driver does not take it.
 std::optional<cl::Program> build_from_binary(const Device::State& device, const std::vector<unsigned char>& binary,
                                              const std::string& options) {
-    if (binary.empty())
+    if (binary.empty()) {
         return std::nullopt;
+    }
     try {
         cl::Program program(device.context, {device.device}, cl::Program::Binaries{binary});
         program.build({device.device}, options.c_str());
@@ -160,8 +169,9 @@ std::optional<cl::Program> build_from_binary(const Device::State& device, const 
 
 bool load_stored(Program::State& state, const std::string& main, const std::string& options) {
     const auto bytes = state.cache.load(state.report.identity);
-    if (!bytes)
+    if (!bytes) {
         return false;
+    }
     StoredProgram stored = unpack(*bytes);
     auto program = build_from_binary(*state.device, stored.binary, options);
     if (!program) {
@@ -179,8 +189,9 @@ bool load_stored(Program::State& state, const std::string& main, const std::stri
 std::vector<unsigned char> binary_of(const Program::State& state) {
     return guarded(state.device->info, "asking for the built program", [&] {
         auto binaries = state.program.getInfo<CL_PROGRAM_BINARIES>();
-        if (binaries.empty())
+        if (binaries.empty()) {
             throw cl::Error(CL_INVALID_PROGRAM_EXECUTABLE, "clGetProgramInfo");
+        }
         return std::move(binaries.front());
     });
 }
@@ -224,8 +235,9 @@ std::vector<std::byte> Program::binary() const {
 void Program::store_binary() {
     State& state = *state_;
     const std::scoped_lock lock(state.mutex);
-    if (state.cache.folder().empty())
+    if (state.cache.folder().empty()) {
         return;
+    }
     if (state.on_disk &&
         std::includes(state.stored.begin(), state.stored.end(), state.launched.begin(), state.launched.end())) {
         return;

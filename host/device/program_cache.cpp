@@ -75,12 +75,14 @@ struct Checked {
 };
 
 Checked check(std::string_view file, const std::string& identity) {
-    if (file.size() < head_size + checksum_size)
+    if (file.size() < head_size + checksum_size) {
         return {{}, "it is cut short"};
+    }
     const std::string_view payload = file.substr(head_size + checksum_size);
     // Compares magic, version, identity and length at once.
-    if (file.substr(0, head_size) != head_of(identity, payload.size()))
+    if (file.substr(0, head_size) != head_of(identity, payload.size())) {
         return {{}, "its header is wrong"};
+    }
     if (file.substr(head_size, checksum_size) != checksum_of(file.substr(0, head_size), payload)) {
         return {{}, "its checksum is wrong"};
     }
@@ -92,8 +94,9 @@ class Descriptor {
   public:
     explicit Descriptor(int number) : number_(number) {}
     ~Descriptor() {
-        if (number_ >= 0)
+        if (number_ >= 0) {
             ::close(number_);
+        }
     }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
@@ -119,33 +122,39 @@ class Descriptor {
 void write_all(int descriptor, std::string_view bytes, const fs::path& path) {
     while (!bytes.empty()) {
         const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR)
+        if (written < 0 && errno == EINTR) {
             continue;
-        if (written <= 0)
+        }
+        if (written <= 0) {
             fail(path);
+        }
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }
 
 /// Makes the folder for this user alone; parents get the usual rights.
 void make_folder(const fs::path& folder) {
-    if (fs::is_directory(folder))
+    if (fs::is_directory(folder)) {
         return;
+    }
     fs::create_directories(folder.parent_path());
-    if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST)
+    if (::mkdir(folder.c_str(), S_IRWXU) != 0 && errno != EEXIST) {
         fail(folder);
+    }
 }
 
 /// Writes a new file of mode 0600 beside its final place and moves it there.
 void write_and_rename(const fs::path& folder, const fs::path& final_path, std::string_view bytes) {
     std::string name = (folder / (std::string(temporary_prefix) + "XXXXXX")).string();
     Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
-    if (file.number() < 0)
+    if (file.number() < 0) {
         fail(name);
+    }
     try {
         write_all(file.number(), bytes, name);
-        if (!file.close())
+        if (!file.close()) {
             fail(name);
+        }
         fs::rename(name, final_path);
     } catch (...) {
         ::unlink(name.c_str());
@@ -171,22 +180,26 @@ void prune(const fs::path& folder, const fs::path& keep) {
         std::error_code gone;
         const fs::path& path = item->path();
         const Entry entry{path, item->last_write_time(gone), gone ? 0 : item->file_size(gone)};
-        if (gone)
+        if (gone) {
             continue;
+        }
         if (path.filename().string().rfind(temporary_prefix, 0) == 0) {
-            if (now - entry.time > temporary_life)
+            if (now - entry.time > temporary_life) {
                 fs::remove(path, gone);
+            }
         } else if (path.extension() == entry_suffix) {
             bytes += entry.size;
-            if (path != keep)
+            if (path != keep) {
                 entries.push_back(entry);
+            }
         }
     }
     std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.time < b.time; });
     std::size_t count = entries.size() + 1;
     for (const Entry& entry : entries) {
-        if (count <= most_entries && bytes <= most_bytes)
+        if (count <= most_entries && bytes <= most_bytes) {
             break;
+        }
         std::error_code gone;
         fs::remove(entry.path, gone);
         --count;
@@ -197,8 +210,9 @@ void prune(const fs::path& folder, const fs::path& keep) {
 /// An environment variable that holds an absolute path; anything else counts as unset (XDG base directories 0.8).
 fs::path absolute_path_from(const char* variable) {
     const char* const value = std::getenv(variable);
-    if (value == nullptr)
+    if (value == nullptr) {
         return {};
+    }
     const fs::path path(value);
     return path.is_absolute() ? path : fs::path();
 }
@@ -220,12 +234,14 @@ ProgramCache ProgramCache::disabled() {
 }
 
 std::optional<std::vector<std::byte>> ProgramCache::load(const std::string& identity) const {
-    if (folder_.empty() || !is_identity(identity))
+    if (folder_.empty() || !is_identity(identity)) {
         return std::nullopt;
+    }
     const fs::path path = entry_path(folder_, identity);
     const auto file = read_whole_file(path);
-    if (!file)
+    if (!file) {
         return std::nullopt;
+    }
     const Checked checked = check(*file, identity);
     if (!checked.fault.empty()) {
         spdlog::warn("kernel cache: {} is dropped, {}; the program is built again", path.string(), checked.fault);
@@ -239,8 +255,9 @@ std::optional<std::vector<std::byte>> ProgramCache::load(const std::string& iden
 }
 
 void ProgramCache::store(const std::string& identity, std::span<const std::byte> binary) const {
-    if (folder_.empty() || !is_identity(identity))
+    if (folder_.empty() || !is_identity(identity)) {
         return;
+    }
     const fs::path path = entry_path(folder_, identity);
     try {
         std::string payload(binary.size(), '\0');
@@ -256,8 +273,9 @@ void ProgramCache::store(const std::string& identity, std::span<const std::byte>
 }
 
 void ProgramCache::discard(const std::string& identity) const {
-    if (folder_.empty() || !is_identity(identity))
+    if (folder_.empty() || !is_identity(identity)) {
         return;
+    }
     std::error_code gone;
     fs::remove(entry_path(folder_, identity), gone);
 }

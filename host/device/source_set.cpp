@@ -27,18 +27,21 @@ std::string_view directive(std::string_view line) {
 }
 
 bool starts_with_word(std::string_view text, std::string_view word) {
-    if (text.substr(0, word.size()) != word)
+    if (text.substr(0, word.size()) != word) {
         return false;
+    }
     return text.size() == word.size() || std::string_view(" \t\"<(").find(text[word.size()]) != std::string_view::npos;
 }
 
 /// The name in `include "name"`; empty for any other directive.
 std::string_view included_name(std::string_view text) {
-    if (!starts_with_word(text, "include"))
+    if (!starts_with_word(text, "include")) {
         return {};
+    }
     text = without_leading_blanks(text.substr(7));
-    if (text.empty() || text.front() != '"')
+    if (text.empty() || text.front() != '"') {
         return {};
+    }
     const auto end = text.find('"', 1);
     return end == std::string_view::npos ? std::string_view() : text.substr(1, end - 1);
 }
@@ -78,8 +81,9 @@ bool comment_open_after(std::string_view line, bool open) {
 std::string line_directive(std::size_t number, std::string_view path) {
     std::string quoted;
     for (const char c : path) {
-        if (c == '"' || c == '\\')
+        if (c == '"' || c == '\\') {
             quoted += '\\';
+        }
         quoted += c;
     }
     return fmt::format("#line {} \"{}\"\n", number, quoted);
@@ -105,8 +109,9 @@ class Expansion {
     void add_file(const std::string& name, bool conditional) {
         const SourceText source = files_.at(name);
         open_.push_back(name);
-        if (!conditional)
+        if (!conditional) {
             seen_.insert(name);
+        }
         const auto guard = std::distance(files_.begin(), files_.find(name));
         result_ += fmt::format("#ifndef CLSHADE_ONCE_{0}\n#define CLSHADE_ONCE_{0}\n", guard);
         result_ += line_directive(1, *source.path);
@@ -119,8 +124,9 @@ class Expansion {
             const std::string_view line = rest.substr(0, end);
             rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
             add_line(line, number, source, in_comment, conditional || depth > 0);
-            if (!in_comment)
+            if (!in_comment) {
                 depth += depth_change(directive(line));
+            }
             in_comment = comment_open_after(line, in_comment);
             if (result_.size() > expanded_limit) {
                 throw RuntimeFailure(
@@ -136,29 +142,34 @@ class Expansion {
         const std::string_view text = in_comment ? std::string_view() : directive(line);
         const std::string name(included_name(text));
         if (name.empty()) {
-            if (!is_pragma_once(text))
+            if (!is_pragma_once(text)) {
                 result_ += line;
+            }
             result_ += '\n';
             return;
         }
-        if (files_.find(name) == files_.end())
+        if (files_.find(name) == files_.end()) {
             throw RuntimeFailure(missing(name, number, *source.path));
+        }
         const bool circle = std::find(open_.begin(), open_.end(), name) != open_.end();
-        if (!circle && seen_.count(name) == 0)
+        if (!circle && seen_.count(name) == 0) {
             add_file(name, conditional);
+        }
         result_ += line_directive(number + 1, *source.path);
     }
 
     static int depth_change(std::string_view text) {
-        if (text.substr(0, 2) == "if")
+        if (text.substr(0, 2) == "if") {
             return 1;
+        }
         return starts_with_word(text, "endif") ? -1 : 0;
     }
 
     [[nodiscard]] std::string missing(std::string_view name, std::size_t number, std::string_view path) const {
         std::vector<std::string_view> names;
-        for (const auto& [known, unused] : files_)
+        for (const auto& [known, unused] : files_) {
             names.push_back(known);
+        }
         return fmt::format("{}:{}: no kernel source \"{}\" to include; there are: {}", path, number, name,
                            fmt::join(names, ", "));
     }
@@ -187,20 +198,24 @@ void SourceSet::override_from(const std::filesystem::path& folder) {
         const std::filesystem::path& path = entry->path();
         std::error_code unreadable;
         const bool source = path.extension() == ".cl" || path.extension() == ".h";
-        if (!source || !entry->is_regular_file(unreadable))
+        if (!source || !entry->is_regular_file(unreadable)) {
             continue;
+        }
         found[path.filename().string()] = path;
         replaces = replaces || contains(path.filename().string());
     }
-    if (failed)
+    if (failed) {
         throw UsageError(fmt::format("{}: cannot be read: {}", folder.string(), failed.message()));
+    }
     if (!replaces) {
         throw UsageError(fmt::format("{}: holds none of the kernel files {}; see --kernel-dir", folder.string(),
                                      fmt::join(names(), ", ")));
     }
     for (const auto& [name, path] : found) {
         auto text = read_whole_file(path);
-        if (!text) throw UsageError(fmt::format("{}: cannot be read", path.string()));
+        if (!text) {
+            throw UsageError(fmt::format("{}: cannot be read", path.string()));
+        }
         add(name, std::move(*text), path.string());
     }
 }
@@ -211,15 +226,17 @@ bool SourceSet::contains(std::string_view name) const {
 
 const std::string& SourceSet::text(std::string_view name) const {
     const auto found = files_.find(name);
-    if (found == files_.end())
+    if (found == files_.end()) {
         throw RuntimeFailure(fmt::format("no kernel source \"{}\"", name));
+    }
     return found->second.text;
 }
 
 std::vector<std::string> SourceSet::names() const {
     std::vector<std::string> result;
-    for (const auto& [name, unused] : files_)
+    for (const auto& [name, unused] : files_) {
         result.push_back(name);
+    }
     return result;
 }
 
@@ -228,8 +245,9 @@ std::string SourceSet::expand(const std::string& main) const {
         throw RuntimeFailure(fmt::format("no kernel source \"{}\"; there are: {}", main, fmt::join(names(), ", ")));
     }
     std::map<std::string, SourceText, std::less<>> files;
-    for (const auto& [name, file] : files_)
+    for (const auto& [name, file] : files_) {
         files[name] = {&file.text, &file.path};
+    }
     return Expansion(std::move(files)).run(main);
 }
 

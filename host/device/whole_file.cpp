@@ -7,15 +7,17 @@ namespace clshade {
 
 std::optional<std::string> read_whole_file(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file)
+    if (!file) {
         return std::nullopt;
+    }
     std::string text;
     std::array<char, 65536> piece{};
     while (file.read(piece.data(), piece.size()) || file.gcount() > 0) {
         text.append(piece.data(), static_cast<std::size_t>(file.gcount()));
     }
-    if (file.bad())
+    if (file.bad()) {
         return std::nullopt;
+    }
     return text;
 }
 

@@ -152,8 +152,9 @@ TEST(Buffer, RowsGoToTheirPitchAndBack) {
     constexpr std::size_t row_bytes = 40;
     Buffer buffer(device, device_pitch * rows, Access::read_write);
     std::vector<std::byte> host(host_pitch * rows);
-    for (std::size_t i = 0; i < host.size(); ++i)
+    for (std::size_t i = 0; i < host.size(); ++i) {
         host[i] = static_cast<std::byte>(i + 1);
+    }
     const std::vector<std::byte> blank(device_pitch * rows, std::byte{0xEE});
     buffer.write(blank);
     buffer.write_rows(host.data(), host_pitch, device_pitch, row_bytes, rows);

@@ -24,8 +24,9 @@ const std::string other_identity = "ffffffffffffffffffffffffffffffff";
 
 std::vector<std::byte> payload(std::size_t size, unsigned seed = 1) {
     std::vector<std::byte> bytes(size);
-    for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t i = 0; i < size; ++i) {
         bytes[i] = static_cast<std::byte>(i * 31 + seed);
+    }
     return bytes;
 }
 
@@ -39,8 +40,9 @@ void overwrite(const fs::path& path, const std::string& bytes) {
 
 std::vector<fs::path> files_in(const fs::path& folder) {
     std::vector<fs::path> files;
-    for (const auto& entry : fs::directory_iterator(folder))
+    for (const auto& entry : fs::directory_iterator(folder)) {
         files.push_back(entry.path());
+    }
     return files;
 }
 
@@ -197,19 +199,22 @@ TEST_F(ProgramCacheTest, ReadersSeeOneOfTheWritersWhole) {
     std::vector<std::thread> writers;
     for (unsigned seed = 1; seed <= 3; ++seed) {
         writers.emplace_back([this, seed] {
-            for (int i = 0; i < 100; ++i)
+            for (int i = 0; i < 100; ++i) {
                 cache_.store(identity, payload(size, seed));
+            }
         });
     }
     int whole = 0;
     constexpr int reads = 300;
     for (int i = 0; i < reads; ++i) {
         const auto loaded = cache_.load(identity);
-        if (loaded && *loaded == payload(size, static_cast<unsigned>(loaded->at(0))))
+        if (loaded && *loaded == payload(size, static_cast<unsigned>(loaded->at(0)))) {
             ++whole;
+        }
     }
-    for (std::thread& writer : writers)
+    for (std::thread& writer : writers) {
         writer.join();
+    }
     EXPECT_EQ(whole, reads);
     EXPECT_EQ(files_in(folder_).size(), 1U);
 }
@@ -218,8 +223,9 @@ TEST_F(ProgramCacheTest, ReadersSeeOneOfTheWritersWhole) {
 class ScopedVariable {
   public:
     ScopedVariable(const char* name, const char* value) : name_(name) {
-        if (const char* const old = std::getenv(name))
+        if (const char* const old = std::getenv(name)) {
             old_ = old;
+        }
         set(value);
     }
     ~ScopedVariable() { set(old_ ? old_->c_str() : nullptr); }

@@ -1,5 +1,6 @@
 // Programs and the cache together, also across processes.
 #include "host/base/aligned_buffer.h"
+#include "host/base/error.h"
 #include "host/device/device.h"
 #include "host/device/program.h"
 #include "tests/device/temporary_folder.h"
@@ -166,6 +167,25 @@ TEST(ProgramProcess, DISABLED_Child) {
     std::ofstream(report) << result << ' ' << program.report().from_cache << ' ' << spent.count() << '\n';
 }
 
+// Run in a process whose OpenCL loader knows no driver, or only a broken one.
+TEST(ProgramProcess, DISABLED_NoDriver) {
+    const DeviceList list = list_devices();
+    EXPECT_TRUE(list.devices.empty());
+    EXPECT_THROW(static_cast<void>(select_device(list, "")), DeviceError);
+}
+
+// Run in a process where PoCL stands beside a broken driver.
+TEST(ProgramProcess, DISABLED_OneGoodDriver) {
+    EXPECT_FALSE(list_devices().devices.empty());
+}
+
+int run_child(const std::string& variables, const std::string& test) {
+    const std::string command = variables + " '" + fs::read_symlink("/proc/self/exe").string() +
+                                "' --gtest_also_run_disabled_tests --gtest_filter=ProgramProcess.DISABLED_" + test +
+                                " >/dev/null 2>&1";
+    return std::system(command.c_str());
+}
+
 struct ChildReport {
     float result = 0.0F;
     bool from_cache = false;
@@ -176,12 +196,10 @@ class ProcessTest : public ::testing::Test {
   protected:
     ChildReport child(int number) const {
         const fs::path file = temporary_.path() / ("report" + std::to_string(number));
-        const std::string command =
-            "CLSHADE_TEST_CACHE='" + (temporary_.path() / "clshade").string() + "' CLSHADE_TEST_REPORT='" +
-            file.string() + "' '" + fs::read_symlink("/proc/self/exe").string() +
-            "' --gtest_also_run_disabled_tests --gtest_filter=ProgramProcess.DISABLED_Child >/dev/null 2>&1";
+        const std::string variables = "CLSHADE_TEST_CACHE='" + (temporary_.path() / "clshade").string() +
+                                      "' CLSHADE_TEST_REPORT='" + file.string() + "'";
         ChildReport report;
-        if (std::system(command.c_str()) == 0) {
+        if (run_child(variables, "Child") == 0) {
             std::ifstream(file) >> report.result >> report.from_cache >> report.milliseconds;
         }
         return report;
@@ -212,8 +230,9 @@ TEST_F(ProcessTest, ManyProcessesShareOneFolder) {
         for (std::size_t i = 0; i < processes; ++i) {
             waiting.emplace_back([&, i] { reports.at(i) = child(static_cast<int>(i)); });
         }
-        for (std::thread& thread : waiting)
+        for (std::thread& thread : waiting) {
             thread.join();
+        }
         for (const ChildReport& report : reports) {
             EXPECT_EQ(report.result, 2.0F);
             EXPECT_TRUE(round == 0 || report.from_cache);
@@ -224,6 +243,18 @@ TEST_F(ProcessTest, ManyProcessesShareOneFolder) {
             ++files;
         }
         EXPECT_EQ(files, 1U);
+    }
+}
+
+TEST_F(ProcessTest, BadDriversAreNoneAndHideNoOthers) {
+    const std::string folder = temporary_.path().string();
+    const std::string variables = "OCL_ICD_VENDORS='" + folder + "'"; // read by ocl-icd, Debian's OpenCL loader
+    EXPECT_EQ(run_child(variables, "NoDriver"), 0);
+    std::ofstream(temporary_.path() / "bad.icd") << "libclshade-no-such-driver.so\n";
+    EXPECT_EQ(run_child(variables, "NoDriver"), 0);
+    std::error_code absent;
+    if (fs::copy_file("/etc/OpenCL/vendors/pocl.icd", temporary_.path() / "pocl.icd", absent)) {
+        EXPECT_EQ(run_child(variables, "OneGoodDriver"), 0);
     }
 }
 

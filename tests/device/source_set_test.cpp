@@ -21,8 +21,9 @@ using tests::TemporaryFolder;
 
 std::size_t count(const std::string& text, const std::string& word) {
     std::size_t found = 0;
-    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    for (auto at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
         ++found;
+    }
     return found;
 }
 
@@ -149,8 +150,9 @@ TEST(BuildLog, NamesFileAndLineAfterAnInclude) {
 TEST(BuildLog, LongOnesAreCut) {
     SourceSet set;
     std::string text = "__kernel void k(__global float* o) {\n";
-    for (int i = 0; i < 500; ++i)
+    for (int i = 0; i < 500; ++i) {
         text += "o[" + std::to_string(i) + "] = wrong_" + std::to_string(i) + ";\n";
+    }
     set.add("main.cl", text + "}\n");
     const std::string log = build_failure(set);
     EXPECT_THAT(log, HasSubstr("main.cl:2:"));
