@@ -61,8 +61,10 @@ TEST(DemoShapes, TheWordHasSevenLettersInsideTheirBoxes) {
     ASSERT_EQ(letters.size(), 7U);
     for (const Letter& letter : letters) {
         // Outside the box [0, width] x [0, 1.5] there is no ink, except the rounding error of single precision.
-        for (float y = -0.5F; y < 2.0F; y += 0.02F) {
-            for (float x = -0.5F; x < letter.width + 0.5F; x += 0.02F) {
+        for (int row = 0; row < 125; ++row) {
+            for (int column = 0; column < 100; ++column) {
+                const float x = -0.5F + 0.02F * static_cast<float>(column);
+                const float y = -0.5F + 0.02F * static_cast<float>(row);
                 const bool inside = x > -1e-4F && x < letter.width + 1e-4F && y > -1e-4F && y < 1.5001F;
                 const bool ink = distance_to_strokes({x, y}, letter.strokes) < pen;
                 EXPECT_TRUE(inside || !ink) << x << ' ' << y;
