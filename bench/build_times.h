@@ -15,7 +15,7 @@ struct BuildTimes {
 };
 
 /// Builds a row's program into an empty binary cache, then loads it from there, each time from making the shader to the
-/// end of its first launch over a picture of 64x64 pixels. Sources get a comment nobody has seen before, so that a
+/// end of its first launch over a picture of 64x64 pixels. Sources get a mark nobody has seen before, so that a
 /// cache inside the driver does not answer for the compiler. Throws RuntimeFailure.
 [[nodiscard]] BuildTimes measure_build(Device& device, const BenchScene& scene, const std::filesystem::path& kernel_dir,
                                        int lanes);
