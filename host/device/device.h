@@ -50,7 +50,8 @@ class Program;
 /// need of it alive.
 class Device {
   public:
-    /// threads > 0 limits a CPU device to that many compute units; 0: all. Throws DeviceError.
+    /// threads > 0 limits a CPU device to that many compute units (a sub-device; other kinds ignore it); 0 or more than
+    /// there are: all. The result does not depend on it, nor does a program's identity. Throws DeviceError.
     explicit Device(const DeviceInfo& info, int threads = 0);
     ~Device();
     Device(Device&&) noexcept;
@@ -72,6 +73,8 @@ class Device {
 enum class Access { read, write, read_write };
 
 /// Device memory. Either over host memory (used in place on unified-memory devices, mirrored otherwise) or of its own.
+/// The host owns a buffer over its memory from the start and after download(), the device after upload() or a launch
+/// that uses the buffer; what only the device writes needs no upload().
 class Buffer {
   public:
     Buffer() = default;

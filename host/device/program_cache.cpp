@@ -238,13 +238,17 @@ std::optional<std::vector<std::byte>> ProgramCache::load(const std::string& iden
         return std::nullopt;
     }
     const fs::path path = entry_path(folder_, identity);
-    const auto file = read_whole_file(path);
+    std::error_code absent;
+    const std::uintmax_t size = fs::file_size(path, absent);
+    const bool huge = !absent && size > most_bytes; // never ours; not worth reading
+    const auto file = huge ? std::string() : read_whole_file(path);
     if (!file) {
         return std::nullopt;
     }
     const Checked checked = check(*file, identity);
     if (!checked.fault.empty()) {
-        spdlog::warn("kernel cache: {} is dropped, {}; the program is built again", path.string(), checked.fault);
+        spdlog::warn("kernel cache: {} is dropped, {}; the program is built again", path.string(),
+                     huge ? "it is too large" : checked.fault);
         discard(identity);
         return std::nullopt;
     }

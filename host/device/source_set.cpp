@@ -30,7 +30,8 @@ bool starts_with_word(std::string_view text, std::string_view word) {
     if (text.substr(0, word.size()) != word) {
         return false;
     }
-    return text.size() == word.size() || std::string_view(" \t\"<(").find(text[word.size()]) != std::string_view::npos;
+    return text.size() == word.size() ||
+           std::string_view(" \t\r\"<(/").find(text[word.size()]) != std::string_view::npos;
 }
 
 /// The name in `include "name"`; empty for any other directive.

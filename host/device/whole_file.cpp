@@ -2,10 +2,15 @@
 
 #include <array>
 #include <fstream>
+#include <system_error>
 
 namespace clshade {
 
 std::optional<std::string> read_whole_file(const std::filesystem::path& path) {
+    std::error_code absent;
+    if (!std::filesystem::is_regular_file(path, absent)) { // a pipe would block for ever
+        return std::nullopt;
+    }
     std::ifstream file(path, std::ios::binary);
     if (!file) {
         return std::nullopt;

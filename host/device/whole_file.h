@@ -7,7 +7,7 @@
 
 namespace clshade {
 
-/// The content of a file; nothing if it cannot be opened or read.
+/// The content of a regular file; nothing if there is none or it cannot be read.
 [[nodiscard]] std::optional<std::string> read_whole_file(const std::filesystem::path& path);
 
 } // namespace clshade

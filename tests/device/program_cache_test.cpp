@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -110,6 +111,29 @@ TEST_F(ProgramCacheTest, AnyCutOrGrownFileIsSeen) {
     }
     overwrite(path, whole + "x");
     EXPECT_FALSE(cache_.load(identity));
+}
+
+TEST_F(ProgramCacheTest, HugeFilesAndPipesAreNotRead) {
+    cache_.store(identity, payload(40));
+    fs::resize_file(only_file(), std::uintmax_t{1} << 40); // sparse
+    EXPECT_FALSE(cache_.load(identity));
+    EXPECT_TRUE(files_in(folder_).empty());
+    ASSERT_EQ(::mkfifo((folder_ / (identity + ".bin")).c_str(), 0600), 0);
+    EXPECT_FALSE(cache_.load(identity));
+    cache_.store(identity, payload(40));
+    EXPECT_TRUE(cache_.load(identity));
+}
+
+TEST_F(ProgramCacheTest, DoubtIsLoggedInOneLineThatNamesTheFile) {
+    cache_.store(identity, payload(40));
+    const std::string path = only_file().string();
+    overwrite(path, "nonsense");
+    ::testing::internal::CaptureStdout(); // where spdlog writes unless told otherwise
+    EXPECT_FALSE(cache_.load(identity));
+    EXPECT_FALSE(cache_.load(identity)); // absent by now: nothing to say
+    const std::string log = ::testing::internal::GetCapturedStdout();
+    EXPECT_THAT(log, ::testing::HasSubstr(path));
+    EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 1) << log;
 }
 
 TEST_F(ProgramCacheTest, FileOfAnotherProgramIsSeen) {

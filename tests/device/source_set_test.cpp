@@ -79,6 +79,15 @@ TEST(SourceSet, CommentsAndForeignIncludesStay) {
     EXPECT_EQ(count(text, "int a;"), 1U);
 }
 
+TEST(SourceSet, CarriageReturnsDoNoHarm) {
+    SourceSet set;
+    set.add("main.cl", "#include \"a.h\"\r\n#include \"a.h\"\r\nint m;\r\n");
+    set.add("a.h", "#pragma once\r\n#if 1\r\nint a;\r\n#endif\r\n");
+    const std::string text = set.expand("main.cl");
+    EXPECT_EQ(count(text, "int a;"), 1U);
+    EXPECT_EQ(count(text, "pragma"), 0U);
+}
+
 TEST(SourceSet, MissingIncludeNamesWhoAsks) {
     SourceSet set;
     set.add("main.cl", "\n#include \"a.h\"\n");
