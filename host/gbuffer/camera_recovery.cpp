@@ -111,12 +111,14 @@ Normalisation normalise(const std::vector<Sample>& samples) {
     Normalisation result;
     for (int i = 0; i < 3; ++i) {
         std::vector<double> values;
+        values.reserve(samples.size());
         for (const Sample& sample : samples) {
             values.push_back(sample.position[i]);
         }
         result.centre[i] = median_of(values);
     }
     std::vector<double> distances;
+    distances.reserve(samples.size());
     for (const Sample& sample : samples) {
         distances.push_back(glm::length(sample.position - result.centre));
     }

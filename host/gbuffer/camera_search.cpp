@@ -165,8 +165,13 @@ std::optional<FoundCamera> best_of(const std::vector<FoundCamera>& cameras, std:
     return best;
 }
 
-/// One kind of camera (perspective or orthographic) from all sights, else from random few.
-std::optional<FoundCamera> search_kind(std::span<const Sight> sights, bool orthographic) {
+enum class Effort {
+    quick,    ///< the solution from all sights, good or bad
+    thorough, ///< from random few too, if that one does not explain nearly all
+};
+
+/// One kind of camera (perspective or orthographic).
+std::optional<FoundCamera> search_kind(std::span<const Sight> sights, bool orthographic, Effort effort) {
     const auto solve = [&](std::span<const Sight> some) {
         return orthographic ? affine_camera(some) : dlt_camera(some);
     };
@@ -177,6 +182,9 @@ std::optional<FoundCamera> search_kind(std::span<const Sight> sights, bool ortho
             !is_mirrored(cameras.front().camera)) {
             return cameras.front();
         }
+    }
+    if (effort == Effort::quick) {
+        return best_of(cameras, sights);
     }
     Draws draws;
     const std::vector<Sight> jury = draws.pick(sights, std::min<std::size_t>(sights.size(), 500));
@@ -196,6 +204,10 @@ std::optional<FoundCamera> search_kind(std::span<const Sight> sights, bool ortho
     }
     for (const auto& [score, guess] : shortlist.entries()) {
         cameras.push_back(refine_simplest(guess, sights));
+        if (agreement(cameras.back().camera, sights, fine_threshold) > score - 0.01 &&
+            !is_mirrored(cameras.back().camera)) {
+            break; // finely explains what the guess explained coarsely
+        }
     }
     return best_of(cameras, sights);
 }
@@ -210,33 +222,56 @@ std::vector<Sight> every_few(std::span<const Sight> sights, std::size_t most) {
     return some;
 }
 
-/// Can an orthographic camera compete at all? Its linear fit, of more freedom than it has, to what the perspective one
-/// explains says no at once for nearly every perspective picture.
-bool may_be_orthographic(const FoundCamera& perspective, std::span<const Sight> sights) {
+bool explains_enough(const std::optional<FoundCamera>& found, std::span<const Sight> sights) {
+    return found && agreement(found->camera, sights, fine_threshold) > enough;
+}
+
+/// The simpler one wins a draw: perspective holds the orthographic camera as a limit.
+std::optional<FoundCamera> simpler_of(const std::optional<FoundCamera>& perspective,
+                                      const std::optional<FoundCamera>& orthographic, std::span<const Sight> sights) {
+    if (!perspective || !orthographic) {
+        return perspective ? perspective : orthographic;
+    }
+    const bool as_well =
+        explains_as_well(orthographic->median_error, perspective->median_error) &&
+        fine_agreement(orthographic->camera, sights) > fine_agreement(perspective->camera, sights) - mirror_margin;
+    return as_well ? orthographic : perspective;
+}
+
+/// The orthographic camera that a perspective one may stand for, from the sights that it explains. Empty, at the price
+/// of one linear fit, for nearly every perspective picture.
+std::optional<FoundCamera> orthographic_twin(const FoundCamera& perspective, std::span<const Sight> sights) {
     std::vector<Sight> explained;
     for (const Sight& sight : sights) {
-        if (sight_error(perspective.camera, sight) <= 3.0 * std::max(perspective.median_error, 1e-3)) {
+        if (sight_error(perspective.camera, sight) < fine_threshold) {
             explained.push_back(sight);
         }
     }
     const auto guess = affine_camera(explained);
-    return !guess || 2 * explained.size() < sights.size() ||
-           median_of(sight_errors(*guess, explained)) <= 10.0 * perspective.median_error + 1.0;
+    if (!guess || median_of(sight_errors(*guess, explained)) > fine_threshold) {
+        return std::nullopt;
+    }
+    return refine_simplest(*guess, sights);
 }
 
 } // namespace
 
 std::optional<FoundCamera> search_camera(std::span<const Sight> sights) {
     const std::vector<Sight> some = every_few(sights, 1000);
-    auto best = search_kind(some, false);
-    if (!best || may_be_orthographic(*best, some)) {
-        const auto orthographic = search_kind(some, true);
-        // Perspective holds the orthographic camera as a limit, so that the simpler one wins a draw.
-        if (orthographic && (!best || (explains_as_well(orthographic->median_error, best->median_error) &&
-                                       fine_agreement(orthographic->camera, some) >
-                                           fine_agreement(best->camera, some) - mirror_margin))) {
-            best = orthographic;
+    auto perspective = search_kind(some, false, Effort::quick);
+    std::optional<FoundCamera> orthographic;
+    if (!explains_enough(perspective, some)) {
+        orthographic = search_kind(some, true, Effort::quick);
+        if (!explains_enough(orthographic, some)) {
+            perspective = search_kind(some, false, Effort::thorough);
+            if (!explains_enough(perspective, some)) {
+                orthographic = search_kind(some, true, Effort::thorough);
+            }
         }
+    }
+    auto best = simpler_of(perspective, orthographic, some);
+    if (best && !best->camera.orthographic) {
+        best = simpler_of(best, orthographic_twin(*best, some), some);
     }
     return best ? std::optional(found(best->camera, sights, best->freedom)) : std::nullopt;
 }

@@ -150,6 +150,7 @@ NamedChannels find_one(const ImageLayout& layout, const std::vector<Layer>& laye
     }
     if (fits.size() > 1) {
         std::vector<std::string> names;
+        names.reserve(fits.size());
         for (const NamedChannels& fit : fits) {
             names.push_back(fit.name);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gbuffer/channel_layers.h"
+#include "host/scene/scene.h"
 
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ struct NamedChannels {
     std::vector<int> channels;
     std::string name; ///< of the layer, or the channels
 };
+
+/// "scene.toml:12:5: what", "scene.toml: what" or just "what", as far as the place is known.
+[[nodiscard]] std::string located(const SourceLocation& where, std::string_view what);
 
 /// The view layer that the layer of these channels stands in ("" for one without); empty without channels.
 [[nodiscard]] std::optional<std::string> home_of(const std::vector<Layer>& layers, const std::vector<int>& channels);

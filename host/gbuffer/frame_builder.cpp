@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <set>
@@ -143,7 +144,7 @@ void recover_camera(Frame& frame, bool pose_known) {
         frame.warnings.push_back(fmt::format(
             "camera recovered from Position: median error {:.2g} px, 99 % within {:.2g} px, {} of {} samples, {}",
             recovered.median_error_px, recovered.p99_error_px,
-            static_cast<int>(recovered.inlier_fraction * recovered.samples + 0.5), recovered.samples,
+            std::lround(recovered.inlier_fraction * recovered.samples), recovered.samples,
             recovered.view.orthographic ? "orthographic" : "perspective"));
     } catch (const UsageError& error) {
         if (!pose_known) {

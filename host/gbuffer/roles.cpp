@@ -57,13 +57,7 @@ RoleChoice choose(Role role, const std::vector<Layer>& layers, const Home& home,
 
 /// "scene.toml:12:5: [gbuffer] normal"
 std::string place(const RoleOverride& entry) {
-    const std::string what = fmt::format("[gbuffer] {}", entry.role);
-    if (entry.where.file.empty()) {
-        return what;
-    }
-    return entry.where.line > 0
-               ? fmt::format("{}:{}:{}: {}", entry.where.file, entry.where.line, entry.where.column, what)
-               : fmt::format("{}: {}", entry.where.file, what);
+    return located(entry.where, fmt::format("[gbuffer] {}", entry.role));
 }
 
 RoleChoice choose_by_override(Role role, const RoleOverride& entry, const ImageLayout& layout,

@@ -66,6 +66,7 @@ inline ImageLayout blender_layout(const std::string& view_layer = "ViewLayer", b
 /// Full names of the channels a role took, in component order.
 inline std::vector<std::string> names_of(const ImageLayout& layout, const std::vector<int>& channels) {
     std::vector<std::string> names;
+    names.reserve(channels.size());
     for (const int channel : channels) {
         names.push_back(layout.channels[static_cast<std::size_t>(channel)].name);
     }

@@ -146,6 +146,14 @@ TEST(Roles, PlanesOfAnotherViewLayerAreTakenWithAWarning) {
     EXPECT_THAT(roles.warnings, Contains(HasSubstr("different view layers")));
 }
 
+TEST(Roles, TheNormalsViewLayerBeatsABetterNameElsewhere) {
+    const ImageLayout layout =
+        layout_of({layer("A.Normal", "XYZ"), layer("A.albedo", "RGB"), layer("B.DiffCol", "RGB")});
+    const RoleAssignment roles = detect(layout);
+    EXPECT_EQ(roles[Role::albedo].layer, "A.albedo");
+    EXPECT_THAT(roles[Role::albedo].runners_up, ElementsAre("B.DiffCol"));
+}
+
 TEST(Roles, TheWholeNameBeatsOneBehindAViewLayer) {
     const ImageLayout layout = layout_of({layer("character.Normal", "XYZ"), layer("Normal", "XYZ")});
     const RoleAssignment roles = detect(layout);
