@@ -90,7 +90,7 @@ class ChunkDecoder {
         packed_.resize(packed);
         file_.read_at(chunk.data_offset, packed_);
         const bool stored = packed == unpacked; // data that would grow is stored as it is, whatever the compression
-        if (!stored && !inflate(unpacked)) {
+        if (!stored && !decompress(static_cast<exr_compression_t>(chunk.compression), unpacked)) {
             return false;
         }
         const int x = plan_.tile_width > 0 ? plan_.window.min.x + chunk.start_x * plan_.tile_width : chunk.start_x;
@@ -114,17 +114,23 @@ class ChunkDecoder {
     }
 
   private:
-    /// After inflating, OpenEXR's ZIP holds differences of bytes, the even bytes of the data before the odd ones.
-    [[nodiscard]] bool inflate(std::size_t unpacked) {
-        if (plan_.pixel_bytes == 0 || packed_.size() > unpacked) {
+    /// Undoes RLE or ZIP. What comes out holds differences of bytes, the even bytes of the data before the odd ones.
+    [[nodiscard]] bool decompress(exr_compression_t compression, std::size_t unpacked) {
+        if (compression == EXR_COMPRESSION_NONE || packed_.size() > unpacked) {
             return false;
         }
         inflated_.resize(unpacked);
-        std::size_t got = 0;
-        if (libdeflate_zlib_decompress(inflater_.get(), packed_.data(), packed_.size(), inflated_.data(), unpacked,
-                                       &got) != LIBDEFLATE_SUCCESS ||
-            got != unpacked) {
-            return false;
+        if (compression == EXR_COMPRESSION_RLE) {
+            if (!undo_runs(packed_, inflated_)) {
+                return false;
+            }
+        } else {
+            std::size_t got = 0;
+            if (libdeflate_zlib_decompress(inflater_.get(), packed_.data(), packed_.size(), inflated_.data(), unpacked,
+                                           &got) != LIBDEFLATE_SUCCESS ||
+                got != unpacked) {
+                return false;
+            }
         }
         undo_differences(inflated_);
         return true;
@@ -168,8 +174,8 @@ void run_on_threads(int threads, const Work& work) {
 } // namespace
 
 bool has_own_decoder(exr_compression_t compression) {
-    return compression == EXR_COMPRESSION_NONE || compression == EXR_COMPRESSION_ZIPS ||
-           compression == EXR_COMPRESSION_ZIP;
+    return compression == EXR_COMPRESSION_NONE || compression == EXR_COMPRESSION_RLE ||
+           compression == EXR_COMPRESSION_ZIPS || compression == EXR_COMPRESSION_ZIP;
 }
 
 void decode_chunks(const ExrFile& file, int part, const std::vector<PlaneTarget>& targets,

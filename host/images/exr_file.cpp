@@ -112,6 +112,10 @@ constexpr double ratio_slack = 65536.0;
 /// Tiles up to this many bytes are taken whatever the size of the image.
 constexpr double harmless_tile_bytes = 64.0 * 1024 * 1024;
 
+/// A table of chunks that does not fit into the file fails with the first chunk, before any memory is taken for it, and
+/// every further chunk would fail the same way: no need to try millions of them.
+constexpr std::size_t give_up = 64;
+
 void check_plausible(const ExrFile& file, int part, const exr_chunk_info_t& chunk) {
     const auto compression = static_cast<exr_compression_t>(chunk.compression);
     const double limit = static_cast<double>(chunk.packed_size) * largest_ratio(compression) +
@@ -130,8 +134,9 @@ void check_plausible(const ExrFile& file, int part, const exr_chunk_info_t& chun
         file.fail(fmt::format("{}claims {} chunks of pixels, more than its {} bytes can hold; {}",
                               label.empty() ? "" : label + ": ", total, file.size(), again));
     }
-    file.fail(fmt::format("incomplete: {}{} of {} chunks of pixels missing or damaged ({}); {}",
-                          label.empty() ? "" : label + ": ", missing, total, why, again));
+    file.fail(fmt::format("incomplete: {}{}{} of {} chunks of pixels missing or damaged ({}); {}",
+                          label.empty() ? "" : label + ": ", missing < give_up ? "" : "at least ", missing, total, why,
+                          again));
 }
 
 } // namespace
@@ -323,9 +328,6 @@ std::vector<exr_chunk_info_t> full_resolution_chunks(const ExrFile& file, int pa
         check_plausible(file, part, chunk);
         chunks.push_back(chunk);
     };
-    // The chunk table is read with the first chunk; a table that does not fit into the file fails there, before any
-    // memory is taken for it, and every further chunk would fail the same way.
-    constexpr std::size_t give_up = 64;
 
     if (storage == EXR_STORAGE_TILED) {
         std::int32_t tile_width = 0;

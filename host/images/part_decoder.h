@@ -1,5 +1,5 @@
-// Pixels of one part into float planes. Two ways in: our own for uncompressed and ZIP data, which unpacks the needed
-// channels of a chunk straight into their planes, and the OpenEXR library for every other compression.
+// Pixels of one part into float planes. Two ways in: our own for uncompressed, RLE and ZIP data, which unpacks the
+// needed channels of a chunk straight into their planes, and the OpenEXR library for every other compression.
 #pragma once
 
 #include "host/gbuffer/image_layout.h"
@@ -25,7 +25,7 @@ struct PlaneGeometry {
 /// Is this one for decode_chunks?
 [[nodiscard]] bool has_own_decoder(exr_compression_t compression);
 
-/// Uncompressed, ZIPS and ZIP. Throws RuntimeFailure naming the file, the part and the lines that are damaged.
+/// Uncompressed, RLE, ZIPS and ZIP. Throws RuntimeFailure naming the file, the part and the lines that are damaged.
 void decode_chunks(const ExrFile& file, int part, const std::vector<PlaneTarget>& targets,
                    const PlaneGeometry& geometry, int threads);
 

@@ -95,4 +95,24 @@ void undo_differences(std::span<std::byte> bytes) {
     }
 }
 
+bool undo_runs(std::span<const std::byte> packed, std::span<std::byte> out) {
+    while (!packed.empty()) {
+        const int count = std::to_integer<std::int8_t>(packed[0]);
+        const bool repeat = count >= 0;
+        const auto length = static_cast<std::size_t>(repeat ? count + 1 : -count);
+        const std::size_t taken = 1 + (repeat ? 1 : length);
+        if (packed.size() < taken || out.size() < length) {
+            return false;
+        }
+        if (repeat) {
+            std::memset(out.data(), std::to_integer<int>(packed[1]), length);
+        } else {
+            std::memcpy(out.data(), packed.data() + 1, length);
+        }
+        packed = packed.subspan(taken);
+        out = out.subspan(length);
+    }
+    return out.empty();
+}
+
 } // namespace clshade

@@ -1,4 +1,4 @@
-// Rows of EXR samples to floats, and the byte shuffles of OpenEXR's ZIP. Little-endian hosts, as is the file.
+// Rows of EXR samples to floats, and the byte shuffles of OpenEXR's RLE and ZIP. Little-endian hosts, as is the file.
 #pragma once
 
 #include "host/gbuffer/image_layout.h"
@@ -22,5 +22,9 @@ void merge_row(SampleType type, const std::byte* even, const std::byte* odd, std
 
 /// Each byte but the first was stored as its difference to the one before, plus 128 (modulo 256).
 void undo_differences(std::span<std::byte> bytes);
+
+/// OpenEXR's run lengths: a count byte c >= 0 repeats the next byte c + 1 times, c < 0 takes the next -c bytes as they
+/// are. False unless `packed` fills `out` exactly.
+[[nodiscard]] bool undo_runs(std::span<const std::byte> packed, std::span<std::byte> out);
 
 } // namespace clshade
