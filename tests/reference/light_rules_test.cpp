@@ -250,7 +250,7 @@ TEST(Frames, DoNotDependOnThreads) {
     for (const int y : {0, 47}) {
         for (const int x : {0, 31, 63}) {
             const Pixel pixel = shade_pixel(frame, x, y, {});
-            const auto at = static_cast<std::size_t>(y * 64 + x);
+            const auto at = static_cast<std::size_t>(y) * 64 + static_cast<std::size_t>(x);
             EXPECT_EQ(one.planes[1][at], pixel.radiance.y);
             EXPECT_EQ(one.planes[3][at], pixel.alpha);
             EXPECT_EQ(one.material[at], pixel.material);
