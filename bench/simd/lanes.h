@@ -87,6 +87,19 @@ inline Real over_sqrt(float c, Real x) {
     return y * (1.5F * c - (0.5F * c * x) * (y * y));
 }
 
+/// 1 / x for x > 0, likewise.
+inline Real reciprocal(Real x) {
+#if defined(__AVX512F__)
+    const Real y = _mm512_rcp14_ps(x);
+    return y * (2.0F - x * y);
+#elif defined(__AVX__)
+    const Real y = _mm256_rcp_ps(x);
+    return y * (2.0F - x * y);
+#else
+    return 1.0F / x;
+#endif
+}
+
 /// 2^x for -126 < x < 127. Chebyshev interpolation of degree 4, relative error 7e-6.
 inline Real exp2_lanes(Real x) {
 #if defined(__AVX512F__)
