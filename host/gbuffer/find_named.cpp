@@ -171,6 +171,14 @@ NamedChannels find_one(const ImageLayout& layout, const std::vector<Layer>& laye
 
 } // namespace
 
+std::string located(const SourceLocation& where, std::string_view what) {
+    if (where.file.empty()) {
+        return std::string(what);
+    }
+    return where.line > 0 ? fmt::format("{}:{}:{}: {}", where.file, where.line, where.column, what)
+                          : fmt::format("{}: {}", where.file, what);
+}
+
 Home home_of(const std::vector<Layer>& layers, const std::vector<int>& channels) {
     for (const Layer& layer : layers) {
         for (const LayerComponent& c : layer.components) {
@@ -220,10 +228,7 @@ std::vector<int> find_kept(const ImageLayout& layout, const std::vector<Layer>& 
 
 std::vector<int> find_channels(const ImageLayout& layout, const RoleAssignment& roles, const Parameter& parameter,
                                std::string_view what) {
-    const std::string place =
-        parameter.where.file.empty() || parameter.where.line == 0
-            ? std::string(what)
-            : fmt::format("{}:{}:{}: {}", parameter.where.file, parameter.where.line, parameter.where.column, what);
+    const std::string place = located(parameter.where, what);
     if (parameter.channels.empty()) {
         throw UsageError(fmt::format("{}: names no channel", place));
     }

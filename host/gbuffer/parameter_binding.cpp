@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/gbuffer/channel_layers.h"
+#include "host/gbuffer/find_named.h"
 
 #include <fmt/format.h>
 
@@ -54,8 +55,8 @@ BoundParameter bind(PlaneTable& table, const RoleAssignment& roles, const Parame
     }
     const std::vector<int> channels = find_channels(table.layout(), roles, parameter, what);
     if (scalar && channels.size() != 1) {
-        throw UsageError(fmt::format("{}: '{}' has {} channels and one is needed; name one, such as '{}'", what,
-                                     parameter.channels.front(), channels.size(),
+        throw UsageError(fmt::format("{}: '{}' has {} channels and one is needed; name one, such as '{}'",
+                                     located(parameter.where, what), parameter.channels.front(), channels.size(),
                                      table.layout().channels[static_cast<std::size_t>(channels.front())].name));
     }
     BoundParameter bound = bind_channels(table, channels);
