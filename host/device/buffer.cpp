@@ -86,7 +86,7 @@ Buffer::State::~State() {
     try {
         unmap();
         device->queue.finish();
-    } catch (...) { // NOLINT(bugprone-empty-catch): a destructor has nobody to tell; the failing call told already
+    } catch (...) { // a destructor has nobody to tell; the failing call told already
     }
 }
 
