@@ -1,5 +1,7 @@
 #include "host/gbuffer/random_gbuffer.h"
 
+#include "host/base/rounding.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,15 +56,8 @@ class Generator {
     std::uint64_t state_;
 };
 
-/// The nearest number with the 24 bits of a float, by Veltkamp's splitting. Not by conversion to float and back: GCC 12
-/// drops that pair of conversions where its SLP vectoriser takes several at once (-O2).
-double rounded(double x) {
-    const double scaled = x * (0x1p29 + 1.0);
-    return scaled - (scaled - x);
-}
-
 glm::dvec3 rounded(const glm::dvec3& v) {
-    return {rounded(v.x), rounded(v.y), rounded(v.z)};
+    return {rounded_to_float(v.x), rounded_to_float(v.y), rounded_to_float(v.z)};
 }
 
 /// A perspective camera that looks across the origin; nothing about it is exactly representable in single precision.
@@ -153,7 +148,7 @@ double random_coverage(Generator& random) {
     if (kind == 0) {
         return 0.0;
     }
-    return kind < 6 ? rounded(partial) : 1.0;
+    return kind < 6 ? rounded_to_float(partial) : 1.0;
 }
 
 /// A vector at right angles to `axis`, pushed towards it by up to `reach` either way.

@@ -1,5 +1,7 @@
 #include "host/shading/constants.h"
 
+#include "host/base/rounding.h"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -31,8 +33,9 @@ void put(float (&target)[4], const glm::dvec3& value) {
 /// value = hi + lo, each a float.
 void put_split(float (&hi)[4], float (&lo)[4], const glm::dvec3& value) {
     for (int i = 0; i < 3; ++i) {
-        hi[i] = static_cast<float>(value[i]);
-        lo[i] = static_cast<float>(value[i] - static_cast<double>(hi[i]));
+        const double high = rounded_to_float(value[i]);
+        hi[i] = static_cast<float>(high);
+        lo[i] = static_cast<float>(value[i] - high);
     }
 }
 
