@@ -47,7 +47,7 @@ std::size_t pack_halves(std::span<const float> values, std::uint16_t* out) {
 std::uint8_t unit_byte(float value) {
     // The comparison is false for NaN.
     const float clamped = value > 0.0F ? std::min(value, 1.0F) : 0.0F;
-    return static_cast<std::uint8_t>(clamped * 255.0F + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(clamped * 255.0F));
 }
 
 std::uint8_t srgb_byte(float linear) {

@@ -60,7 +60,7 @@ void forget_temporary(int slot) {
 std::filesystem::path followed(const std::filesystem::path& file) {
     std::error_code error;
     if (std::filesystem::is_symlink(file, error)) {
-        const std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
+        std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
         if (!error) {
             return real;
         }

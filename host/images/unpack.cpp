@@ -97,7 +97,8 @@ void undo_differences(std::span<std::byte> bytes) {
 
 bool undo_runs(std::span<const std::byte> packed, std::span<std::byte> out) {
     while (!packed.empty()) {
-        const int count = std::to_integer<std::int8_t>(packed[0]);
+        const int code = std::to_integer<int>(packed[0]); // 0..255
+        const int count = code < 128 ? code : code - 256;
         const bool repeat = count >= 0;
         const auto length = static_cast<std::size_t>(repeat ? count + 1 : -count);
         const std::size_t taken = 1 + (repeat ? 1 : length);

@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <cstdint>
@@ -71,13 +70,13 @@ TEST(Damaged, NotAFile) {
 }
 
 TEST(Damaged, NoPermission) {
-    if (::geteuid() == 0) {
-        GTEST_SKIP() << "the superuser may read everything";
-    }
     const TemporaryFolder folder;
     write_bytes(folder / "a.exr", example(Imf::ZIP_COMPRESSION));
     std::filesystem::permissions(folder / "a.exr", std::filesystem::perms::none);
-    EXPECT_THAT(failure(folder / "a.exr"), HasSubstr("check the permissions"));
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0755));
+    EXPECT_EQ(as_common_user(
+                  [&] { return failure(folder / "a.exr").find("check the permissions") != std::string::npos ? 0 : 1; }),
+              0);
 }
 
 TEST(Damaged, NotAnExr) {
@@ -202,7 +201,7 @@ int fails_in_bounds(const std::filesystem::path& file) {
         rusage after{};
         ::getrusage(RUSAGE_SELF, &after);
         const std::int64_t grown_kib = after.ru_maxrss - before.ru_maxrss;
-        return read ? 1 : (seconds > 1.0 ? 2 : (grown_kib > 64 * 1024 ? 3 : 0));
+        return read ? 1 : (seconds > 1.0 ? 2 : (grown_kib > std::int64_t{65536} ? 3 : 0));
     });
 }
 
@@ -235,7 +234,7 @@ TEST(Damaged, AMissingChunkIsNotFilledWithZeros) {
         table = first == at + 8 * chunks ? at : 0;
     }
     ASSERT_NE(table, 0U);
-    std::memset(bytes.data() + table + 8 * 5, 0, 8);
+    std::memset(bytes.data() + table + std::size_t{40}, 0, 8);
     write_bytes(folder / "a.exr", bytes);
     EXPECT_THAT(failure(folder / "a.exr"), HasSubstr("incomplete: 1 of 28 chunks"));
 }

@@ -168,6 +168,7 @@ void write_parts(const std::filesystem::path& file, std::vector<Part> parts) {
         return;
     }
     std::vector<Imf::Header> headers;
+    headers.reserve(parts.size());
     for (const Part& part : parts) {
         headers.push_back(part.header);
     }
@@ -259,6 +260,16 @@ int in_child(const std::function<int()>& action) {
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFSIGNALED(status) ? 100 + WTERMSIG(status) : WEXITSTATUS(status);
+}
+
+int as_common_user(const std::function<int()>& action) {
+    return in_child([&] {
+        constexpr uid_t nobody = 65534;
+        if (::geteuid() == 0 && ::setuid(nobody) != 0) {
+            return 98;
+        }
+        return action();
+    });
 }
 
 } // namespace clshade::testing

@@ -78,5 +78,7 @@ void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
 /// Runs `action` in a child process; its return value, or 99 for an exception, or 100 + the signal that ended it.
 [[nodiscard]] int in_child(const std::function<int()>& action);
+/// The same without the superuser's powers, should the tests have them.
+[[nodiscard]] int as_common_user(const std::function<int()>& action);
 
 } // namespace clshade::testing

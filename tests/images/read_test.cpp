@@ -12,8 +12,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 
 namespace clshade {
 namespace {
@@ -148,7 +149,8 @@ TEST(Read, EveryHalfIsWidenedExactly) {
             if (std::isnan(expected[bits])) {
                 ASSERT_TRUE(std::isnan(got));
             } else {
-                ASSERT_EQ(std::memcmp(&got, &expected[bits], sizeof(float)), 0) << bits << " " << compression;
+                ASSERT_EQ(std::bit_cast<std::uint32_t>(got), std::bit_cast<std::uint32_t>(expected[bits]))
+                    << bits << " " << compression;
             }
         }
     }

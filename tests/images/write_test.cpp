@@ -356,6 +356,7 @@ TEST(OutputPath, RefusedBeforeTheWork) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "folder.exr");
     write_bytes(folder / "file", "");
+    write_bytes(folder / "file.exr", "");
     EXPECT_NO_THROW(check_output_path(folder / "a.exr"));
     EXPECT_NO_THROW(check_output_path(folder / "a.PNG"));
     EXPECT_NO_THROW(check_output_path("a.exr"));
@@ -365,12 +366,20 @@ TEST(OutputPath, RefusedBeforeTheWork) {
     EXPECT_THAT(failure_of([&] { check_output_path(folder / "none/a.exr"); }), HasSubstr("does not exist"));
     EXPECT_THAT(failure_of([&] { check_output_path(folder / "file/a.exr"); }), HasSubstr("a.exr"));
     EXPECT_THAT(failure_of([&] { check_output_path("/dev/full"); }), HasSubstr("not a regular file"));
-    if (::geteuid() != 0) {
-        std::filesystem::permissions(folder.path(),
-                                     std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-        EXPECT_THAT(failure_of([&] { check_output_path(folder / "a.exr"); }), HasSubstr("check its permissions"));
-        std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_all);
-    }
+    std::filesystem::permissions(folder / "file.exr", std::filesystem::perms(0444));
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0777));
+    EXPECT_EQ(as_common_user([&] {
+                  const std::string message = failure_of([&] { check_output_path(folder / "file.exr"); });
+                  return message.find("cannot be replaced") != std::string::npos ? 0 : 1;
+              }),
+              0);
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0555));
+    EXPECT_EQ(as_common_user([&] {
+                  const std::string message = failure_of([&] { check_output_path(folder / "a.exr"); });
+                  return message.find("check its permissions") != std::string::npos ? 0 : 1;
+              }),
+              0);
+    std::filesystem::permissions(folder.path(), std::filesystem::perms(0700));
 }
 
 TEST(OutputPath, SameFileIsSeenThroughLinksAndDots) {
