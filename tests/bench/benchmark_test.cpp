@@ -89,8 +89,6 @@ TEST(Benchmark, TheNaiveKernelAndTheReferenceAreFoundSlower) {
     // Measured near 1/40 and 1/100: a factor of three is no question of noise.
     EXPECT_LT(rival(row, "naive_opencl").ratio, 1.0 / 3.0);
     EXPECT_LT(rival(row, "reference").ratio, 1.0 / 3.0);
-    // It moves the same bytes, but a hand-made loop over 13 planes is not 3 times faster than memory allows.
-    EXPECT_GT(rival(row, "stream_cpp").ratio, 1.0 / 3.0);
 }
 
 TEST(Benchmark, AFilterLeavesTheBaselineInTheRunButNotInTheReport) {
