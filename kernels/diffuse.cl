@@ -117,7 +117,12 @@ static inline oren_nayar_full_terms oren_nayar_full_terms_of(real n) {
     return t;
 }
 
-static inline rgb oren_nayar_full(incidence i, surface s, rgb albedo, oren_nayar_full_terms t) {
+// Two parts, since L2 holds the albedo squared: albedo (first + albedo second).
+typedef struct {
+    real first, second;
+} oren_nayar_full_value;
+
+static inline oren_nayar_full_value oren_nayar_full(incidence i, surface s, oren_nayar_full_terms t) {
     const polar_angles p = polar_angles_of(i, s);
     const real alpha = angle_of(p.sin_alpha, p.cos_alpha);
     const real beta = angle_of(p.sin_beta, p.cos_beta);
@@ -131,7 +136,9 @@ static inline rgb oren_nayar_full(incidence i, surface s, rgb albedo, oren_nayar
     const real c3 = t.c3 * product * product;
     const real l1 = t.c1 + p.cos_dphi * c2 * tan_beta + (1.0f - fabs(p.cos_dphi)) * c3 * tan_mean;
     const real l2 = t.l2 * (1.0f - p.cos_dphi * two_beta_over_pi * two_beta_over_pi);
-    return scale_rgb(make_rgb(fma(albedo.r, l2, l1), fma(albedo.g, l2, l1), fma(albedo.b, l2, l1)), i.nl * INV_PI_F);
+    const real common = i.nl * INV_PI_F;
+    const oren_nayar_full_value value = {common * l1, common * l2};
+    return value;
 }
 
 #endif

@@ -13,7 +13,7 @@ typedef struct {
     real strength; // E_0 = power * strength
     real nl;       // N.L, at least 0: every f_cos has it, or `ratio`, as a factor, so that light from behind gives 0
     real el;       // E.L
-    real eh;       // E.H = L.H
+    real two_eh;   // 2 E.H = |L + E|
     real nh2;      // (N.H)^2
     real sin2_nh;  // 1 - (N.H)^2 as |N x H|^2, exact near the highlight's centre
     real ratio;    // min(1, N.L / N.E): N.L / max(N.L, N.E)
@@ -21,7 +21,8 @@ typedef struct {
 
 static inline incidence make_incidence(surface s, vec3 l, real strength) {
     incidence i;
-    i.nl = larger(dot3(s.n, l), splat(0.0f));
+    const real raw_nl = dot3(s.n, l);
+    i.nl = larger(raw_nl, splat(0.0f));
     i.strength = strength;
     i.el = dot3(s.e, l);
     i.ratio = smaller(splat(1.0f), i.nl * s.inverse_ne);
@@ -30,9 +31,9 @@ static inline incidence make_incidence(surface s, vec3 l, real strength) {
     const vec3 h = add3(l, s.e);
     const real hh = dot3(h, h);
     const real inverse_h = inverse_sqrt(larger(hh, splat(SMALLEST_HH)));
-    const real nh = larger(dot3(s.n, h) * inverse_h, splat(SMALLEST_NH));
+    const real nh = larger((raw_nl + s.raw_ne) * inverse_h, splat(SMALLEST_NH)); // N.(L + E) / |L + E|
     const vec3 c = cross3(s.n, h);
-    i.eh = 0.5f * hh * inverse_h;
+    i.two_eh = hh * inverse_h;
     i.nh2 = nh * nh;
     i.sin2_nh = dot3(c, c) * (inverse_h * inverse_h);
     return i;

@@ -18,18 +18,29 @@ static inline radiance shade_material_0(inputs in, surface s, mask mine, results
     const real shininess = clamp_shininess(load_input(in, 12));
     const rgb raw_albedo = make_rgb(load_input(in, 6), load_input(in, 7), load_input(in, 8));
     const rgb albedo = clamp_unit_rgb(raw_albedo);
-    const real normaliser = normaliser_linear(shininess);
+    const real half_shininess = 0.5f * shininess;
     const rgb colour = multiply_rgb(albedo, complement(f0));
 
-    radiance sum = no_radiance();
-    sum.clamped = outside_unit(raw_f0) | outside_unit(raw_albedo);
+    light_sums sums = no_light();
     for (int k = 0; k < light_count; ++k) {
         const incidence i = incidence_of(s, lights + k);
+        const rgb e0 = irradiance(lights + k, i);
         const real diffuse = lambert(i);
-        const real specular = blinn_phong(i, shininess, normaliser);
-        const rgb reflected = fresnel(f0, schlick_weight_gaussian(i.eh));
-        sum = add_light(sum, out, mine, s, k, lights + k, i, colour, diffuse, reflected, specular);
+        const real specular = blinn_phong(i, half_shininess);
+        const real weighted = specular * schlick_weight_gaussian(i);
+        sums.diffuse = add_share(sums.diffuse, e0, diffuse);
+        sums.specular = add_share(sums.specular, e0, specular);
+        sums.weighted = add_share(sums.weighted, e0, weighted);
+#if OUTPUT_LIGHTS >= 0
+        light_sums own = no_light();
+        own.diffuse = add_share(own.diffuse, e0, diffuse);
+        own.specular = add_share(own.specular, e0, specular);
+        own.weighted = add_share(own.weighted, e0, weighted);
+        store_light(out, mine, s, k, reflect(own, colour, albedo, f0, normaliser_linear(shininess)));
+#endif
     }
+    radiance sum = reflect(sums, colour, albedo, f0, normaliser_linear(shininess));
+    sum.clamped = outside_unit(raw_f0) | outside_unit(raw_albedo);
     return sum;
 }
 

@@ -1,6 +1,7 @@
 // Elementary functions over lanes. The built-in exp2, log2, pow, atan2 of CPU drivers are calls that cost 10 to 50
 // times as much; these are polynomials. Coefficients: minimax fits of this project (Lawson's iteration), errors as
-// stated, in exact arithmetic; rounding adds about 1e-7.
+// stated, in exact arithmetic; rounding adds about 1e-7. Long ones are written in pairs (Estrin): the loop over the
+// lights waits for their latency.
 #ifndef CLSHADE_MATH_CL
 #define CLSHADE_MATH_CL
 
@@ -20,12 +21,11 @@
 static inline real exp2_in_range(real x) {
     const real shifted = x + ROUNDING_MAGIC;
     const real f = x - (shifted - ROUNDING_MAGIC);
-    real p = splat(0.00132647273f);
-    p = fma(p, f, splat(0.00967151299f));
-    p = fma(p, f, splat(0.0555073358f));
-    p = fma(p, f, splat(0.240222424f));
-    p = fma(p, f, splat(0.693147004f));
-    p = fma(p, f, splat(1.0f));
+    const real f2 = f * f;
+    const real p01 = fma(f, splat(0.693147004f), splat(1.0f));
+    const real p23 = fma(f, splat(0.0555073358f), splat(0.240222424f));
+    const real p45 = fma(f, splat(0.00132647273f), splat(0.00967151299f));
+    const real p = fma(fma(p45, f2, p23), f2, p01);
     return AS_REAL(AS_INTEGER(p) + (AS_INTEGER(shifted) << 23));
 }
 
@@ -43,15 +43,13 @@ static inline real log2_cosine_squared(real cos2, real sin2) {
     const integer exponent = bits >> 23;
     const real mantissa = AS_REAL((bits & (integer)(0x007fffff)) + sqrt_half);
     const real f = choose(exponent >= (integer)(0), -sin2, mantissa - 1.0f);
-    real p = splat(0.0873484313f);
-    p = fma(p, f, splat(-0.143075213f));
-    p = fma(p, f, splat(0.149179742f));
-    p = fma(p, f, splat(-0.165705085f));
-    p = fma(p, f, splat(0.199620724f));
-    p = fma(p, f, splat(-0.250017554f));
-    p = fma(p, f, splat(0.333339512f));
-    p = fma(p, f, splat(-0.499999911f));
-    const real log_f = fma(p * f, f, f);
+    const real f2 = f * f;
+    const real p01 = fma(f, splat(0.333339512f), splat(-0.499999911f));
+    const real p23 = fma(f, splat(0.199620724f), splat(-0.250017554f));
+    const real p45 = fma(f, splat(0.149179742f), splat(-0.165705085f));
+    const real p67 = fma(f, splat(0.0873484313f), splat(-0.143075213f));
+    const real p = fma(fma(p67, f2, p45), f2 * f2, fma(p23, f2, p01));
+    const real log_f = fma(p, f2, f);
     return fma(log_f, splat(1.44269504f), LANES_FROM_INTEGER(exponent));
 }
 

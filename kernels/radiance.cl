@@ -66,37 +66,58 @@ static inline mask is_finite_rgb(rgb v) {
     return (v.r + v.g + v.b) * 0.0f == splat(0.0f);
 }
 
-// Adds one light's share E_0 (colour * diffuse + fresnel * specular) for the pixels of `mine`: `diffuse` and `specular`
-// are cosine-weighted BRDFs, colour and fresnel what they are multiplied by per channel.
-static inline radiance add_light(radiance sum, results out, mask mine, surface s, int index,
-                                 __global const LightConstants* light, incidence i, rgb colour, real diffuse,
-                                 rgb fresnel, real specular) {
-    const real d = diffuse * i.strength;
-    const real f = specular * i.strength;
-    const rgb both = make_rgb(fma(colour.r, d, fresnel.r * f), fma(colour.g, d, fresnel.g * f),
-                              fma(colour.b, d, fresnel.b * f));
-    const rgb power = make_rgb(splat(light->power[0]), splat(light->power[1]), splat(light->power[2]));
-    sum.total = multiply_add_rgb(power, both, sum.total);
+// Sums over the lights of E_0 times what does not depend on the material's colours. Fresnel is linear in F0 and the
+// diffuse part in the albedo, so the colours are multiplied in once, after the loop, and take no registers inside it.
+typedef struct {
+    rgb diffuse;  // of the diffuse f_cos for albedo 1
+    rgb square;   // of its part in albedo^2 (full Oren-Nayar only)
+    rgb specular; // of the lobe, without normaliser and Fresnel
+    rgb weighted; // of the lobe times the Fresnel weight
+} light_sums;
+
+static inline light_sums no_light(void) {
+    const rgb zero = grey(splat(0.0f));
+    const light_sums sums = {zero, zero, zero, zero};
+    return sums;
+}
+
+static inline rgb irradiance(__global const LightConstants* light, incidence i) {
+    return make_rgb(light->power[0] * i.strength, light->power[1] * i.strength, light->power[2] * i.strength);
+}
+
+// sum + E_0 share
+static inline rgb add_share(rgb sum, rgb e0, real share) {
+    return multiply_add_rgb(e0, grey(share), sum);
+}
+
+// colour (diffuse + albedo square) + normaliser (F0 specular + (1 - F0) weighted); colour = albedo times what the
+// specular part leaves.
+static inline radiance reflect(light_sums sums, rgb colour, rgb albedo, rgb f0, real normaliser) {
+    const rgb diffuse = multiply_rgb(colour, multiply_add_rgb(albedo, sums.square, sums.diffuse));
+    const rgb specular =
+        scale_rgb(multiply_add_rgb(f0, sums.specular, multiply_rgb(complement(f0), sums.weighted)), normaliser);
+    radiance sum = no_radiance();
+    sum.total = add_rgb(diffuse, specular);
 #if OUTPUT_DIFFUSE >= 0
-    sum.diffuse = multiply_add_rgb(power, scale_rgb(colour, d), sum.diffuse);
+    sum.diffuse = diffuse;
 #endif
 #if OUTPUT_SPECULAR >= 0
-    sum.specular = multiply_add_rgb(power, scale_rgb(fresnel, f), sum.specular);
-#endif
-#if OUTPUT_LIGHTS >= 0
-    // Planes start at zero; materials claim disjoint pixels, so each adds its own to what is there.
-    const int plane = OUTPUT_LIGHTS + 3 * index;
-    const rgb whole = multiply_rgb(power, both);
-    const rgb share = deliver(whole, s, mine & is_finite_rgb(scale_rgb(whole, s.coverage)));
-    const rgb before = make_rgb(load_plane(out.planes, out.stride, plane, out.pixel),
-                                load_plane(out.planes, out.stride, plane + 1, out.pixel),
-                                load_plane(out.planes, out.stride, plane + 2, out.pixel));
-    store_rgb(out, plane, choose_rgb(mine, share, before));
+    sum.specular = specular;
 #endif
     return sum;
 }
 
 #if OUTPUT_LIGHTS >= 0
+// One light's own share. Planes start at zero; materials claim disjoint pixels, so each adds its own to what is there.
+static inline void store_light(results out, mask mine, surface s, int index, radiance own) {
+    const int plane = OUTPUT_LIGHTS + 3 * index;
+    const rgb share = deliver(own.total, s, mine & is_finite_rgb(scale_rgb(own.total, s.coverage)));
+    const rgb before = make_rgb(load_plane(out.planes, out.stride, plane, out.pixel),
+                                load_plane(out.planes, out.stride, plane + 1, out.pixel),
+                                load_plane(out.planes, out.stride, plane + 2, out.pixel));
+    store_rgb(out, plane, choose_rgb(mine, share, before));
+}
+
 // Takes back a light's share where the sum over all lights came out as no finite number.
 static inline void clear_light(results out, int index, mask cleared) {
     for (int plane = OUTPUT_LIGHTS + 3 * index; plane < OUTPUT_LIGHTS + 3 * index + 3; ++plane) {

@@ -29,7 +29,8 @@ typedef struct {
     vec3 n;             // unit normal
     vec3 e;             // unit vector to the eye
     vec3 position;      // world space; only for lights at a place
-    real ne;            // N.E, at least SMALLEST_NE
+    real raw_ne;        // N.E
+    real ne;            // the same, at least SMALLEST_NE
     real inverse_ne;
 } surface;
 
@@ -171,7 +172,8 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
 #endif
     s.e = scale3(to_eye, inverse_sqrt(dot3(to_eye, to_eye)));
 #endif
-    s.ne = larger(dot3(s.n, s.e), splat(SMALLEST_NE));
+    s.raw_ne = dot3(s.n, s.e);
+    s.ne = larger(s.raw_ne, splat(SMALLEST_NE));
     s.inverse_ne = inverse(s.ne);
     return s;
 }

@@ -16,7 +16,7 @@ bool has_light(const Frame& frame, LightType type) {
                        [type](const Light& light) { return light.type == type; });
 }
 
-/// Ends an Oren-Nayar model's call names: "oren_nayar_full" -> terms type and function.
+/// What a diffuse model is called in kernels/diffuse.cl.
 struct DiffuseCode {
     std::string_view terms_type; ///< empty: the model has no terms
     std::string_view terms_function;
@@ -32,7 +32,7 @@ DiffuseCode code_of(DiffuseModel model) {
     case DiffuseModel::oren_nayar:
         return {"oren_nayar_terms", "oren_nayar_terms_of", "oren_nayar(i, s, terms)"};
     case DiffuseModel::oren_nayar_full:
-        return {"oren_nayar_full_terms", "oren_nayar_full_terms_of", "splat(1.0f)"};
+        return {"oren_nayar_full_terms", "oren_nayar_full_terms_of", "oren_nayar_full(i, s, terms)"};
     case DiffuseModel::oren_nayar_qualitative:
         return {"oren_nayar_terms", "oren_nayar_qualitative_terms_of", "oren_nayar_qualitative(i, s, terms)"};
     case DiffuseModel::oren_nayar_simplified_1:
@@ -106,45 +106,89 @@ std::string read_shininess(const Frame& frame, const BoundParameter& parameter, 
                        component(frame, parameter, 0, "m->" + name));
 }
 
-std::string material_function(const Frame& frame, std::size_t index) {
-    const BoundMaterial& material = frame.materials[index];
-    const bool specular = material.specular != SpecularModel::none;
-    const bool exact = material.specular == SpecularModel::blinn_phong_exact;
-    const bool diffuse = material.diffuse != DiffuseModel::none;
-    const bool full = material.diffuse == DiffuseModel::oren_nayar_full;
-    const DiffuseCode code = code_of(material.diffuse);
+/// One sum over the lights: its field of light_sums and the name of the value that is added.
+struct Share {
+    std::string_view field;
+    std::string_view value;
+};
 
-    std::vector<std::string> clamped;
-    std::string setup;
-    std::string light;
-    if (specular) {
-        setup += read_colour(frame, material.f0, "f0", clamped);
-        setup += read_shininess(frame, material.shininess, "shininess");
-        setup += fmt::format("    const real normaliser = {}(shininess);\n",
-                             exact ? "normaliser_exact" : "normaliser_linear");
+std::string add_shares(const std::vector<Share>& shares, std::string_view sums) {
+    std::string text;
+    for (const Share& share : shares) {
+        text += fmt::format("        {0}.{1} = add_share({0}.{1}, e0, {2});\n", sums, share.field, share.value);
     }
-    if (diffuse) {
-        setup += read_colour(frame, material.albedo, "albedo", clamped);
-        setup += specular ? "    const rgb colour = multiply_rgb(albedo, complement(f0));\n"
-                          : "    const rgb colour = albedo;\n";
+    return text;
+}
+
+/// What a material reads before its loop over the lights, and which parameters to watch for being out of range.
+std::string read_parameters(const Frame& frame, const BoundMaterial& material, std::vector<std::string>& clamped) {
+    std::string text;
+    if (material.specular != SpecularModel::none) {
+        text += read_colour(frame, material.f0, "f0", clamped);
+        text += read_shininess(frame, material.shininess, "shininess");
+        text += "    const real half_shininess = 0.5f * shininess;\n";
+    } else {
+        text += "    const rgb f0 = grey(splat(0.0f));\n";
+    }
+    if (material.diffuse != DiffuseModel::none) {
+        text += read_colour(frame, material.albedo, "albedo", clamped);
+        const DiffuseCode code = code_of(material.diffuse);
         if (!code.terms_type.empty()) {
-            setup += read_shininess(frame, material.diffuse_shininess, "diffuse_shininess");
-            setup += fmt::format("    const {} terms = {}(diffuse_shininess);\n", code.terms_type, code.terms_function);
+            text += read_shininess(frame, material.diffuse_shininess, "diffuse_shininess");
+            text += fmt::format("    const {} terms = {}(diffuse_shininess);\n", code.terms_type, code.terms_function);
         }
     } else {
-        setup += "    const rgb colour = grey(splat(0.0f));\n";
+        text += "    const rgb albedo = grey(splat(0.0f));\n";
     }
+    text += material.specular == SpecularModel::none ? "    const rgb colour = albedo;\n"
+                                                     : "    const rgb colour = multiply_rgb(albedo, complement(f0));\n";
+    return text;
+}
 
-    light += fmt::format("        const real diffuse = {};\n",
-                         exact && diffuse ? fmt::format("{} * diffuse_weight_exact(i)", code.value) : code.value);
-    if (specular) {
-        light += "        const real specular = blinn_phong(i, shininess, normaliser);\n";
-        light += fmt::format("        const rgb reflected = fresnel(f0, {}(i.eh));\n",
-                             exact ? "schlick_weight" : "schlick_weight_gaussian");
-    } else {
-        light += "        const real specular = splat(0.0f);\n        const rgb reflected = grey(splat(0.0f));\n";
+/// The body of the loop over the lights up to the values to be summed.
+std::string evaluate_light(const BoundMaterial& material, std::vector<Share>& shares) {
+    const bool exact = material.specular == SpecularModel::blinn_phong_exact;
+    const std::string_view weight = exact ? " * diffuse_weight_exact(i)" : "";
+    const std::string_view value = code_of(material.diffuse).value;
+    std::string text;
+    if (material.diffuse == DiffuseModel::oren_nayar_full) {
+        text += fmt::format("        const oren_nayar_full_value both = {};\n", value);
+        text += fmt::format("        const real diffuse = both.first{};\n", weight);
+        text += fmt::format("        const real square = both.second{};\n", weight);
+        shares = {{"diffuse", "diffuse"}, {"square", "square"}};
+    } else if (material.diffuse != DiffuseModel::none) {
+        text += fmt::format("        const real diffuse = {}{};\n", value, weight);
+        shares = {{"diffuse", "diffuse"}};
     }
-    const std::string_view tint = full ? "multiply_rgb(colour, oren_nayar_full(i, s, albedo, terms))" : "colour";
+    if (material.specular != SpecularModel::none) {
+        text += "        const real specular = blinn_phong(i, half_shininess);\n";
+        text += fmt::format("        const real weighted = specular * {}(i);\n",
+                            exact ? "schlick_weight" : "schlick_weight_gaussian");
+        shares.push_back({"specular", "specular"});
+        shares.push_back({"weighted", "weighted"});
+    }
+    return text;
+}
+
+std::string_view normaliser_of(SpecularModel model) {
+    switch (model) {
+    case SpecularModel::none:
+        return "splat(0.0f)";
+    case SpecularModel::blinn_phong:
+        return "normaliser_linear(shininess)";
+    case SpecularModel::blinn_phong_exact:
+        return "normaliser_exact(shininess)";
+    }
+    return {};
+}
+
+std::string material_function(const Frame& frame, std::size_t index) {
+    const BoundMaterial& material = frame.materials[index];
+    std::vector<std::string> clamped;
+    std::vector<Share> shares;
+    const std::string setup = read_parameters(frame, material, clamped);
+    const std::string light = evaluate_light(material, shares);
+    const std::string_view normaliser = normaliser_of(material.specular);
 
     std::string text = fmt::format("// Material {}, \"{}\": {} over {}.\n", index, comment_text(material.name),
                                    name_of(material.specular), name_of(material.diffuse));
@@ -154,17 +198,19 @@ std::string material_function(const Frame& frame, std::size_t index) {
                         "                                        int light_count) {{\n",
                         index);
     text += setup;
-    text += "\n    radiance sum = no_radiance();\n";
+    text += "\n    light_sums sums = no_light();\n"
+            "    for (int k = 0; k < light_count; ++k) {\n"
+            "        const incidence i = incidence_of(s, lights + k);\n"
+            "        const rgb e0 = irradiance(lights + k, i);\n";
+    text += light + add_shares(shares, "sums");
+    text += "#if OUTPUT_LIGHTS >= 0\n        light_sums own = no_light();\n" + add_shares(shares, "own");
+    text += fmt::format("        store_light(out, mine, s, k, reflect(own, colour, albedo, f0, {}));\n#endif\n    }}\n",
+                        normaliser);
+    text += fmt::format("    radiance sum = reflect(sums, colour, albedo, f0, {});\n", normaliser);
     if (!clamped.empty()) {
         text += fmt::format("    sum.clamped = {};\n", fmt::join(clamped, " | "));
     }
-    text += "    for (int k = 0; k < light_count; ++k) {\n"
-            "        const incidence i = incidence_of(s, lights + k);\n";
-    text += light;
-    text += fmt::format("        sum = add_light(sum, out, mine, s, k, lights + k, i, {}, diffuse, reflected, "
-                        "specular);\n    }}\n    return sum;\n}}\n\n",
-                        tint);
-    return text;
+    return text + "    return sum;\n}\n\n";
 }
 
 std::string claim(const BoundMaterial& material) {

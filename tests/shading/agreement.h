@@ -31,6 +31,17 @@ inline ShadedImage shade(Frame& frame, int lanes, AovSelection aovs = {}, std::s
     return shader.shade(frame);
 }
 
+/// The inputs of the worst pixel, for the message.
+inline std::string describe_worst(const Frame& frame, const reference::Comparison::Worst& worst) {
+    std::string text;
+    if (worst.x >= 0) {
+        for (const auto& [name, value] : reference::describe_pixel(frame, worst.x, worst.y)) {
+            text += "\n  " + name + " " + std::to_string(value);
+        }
+    }
+    return text;
+}
+
 /// What single precision can reach, at every pixel: the default tolerance of `clshade check`.
 inline void expect_agreement(const ShadedImage& device, const reference::Image& expected, const Frame& frame,
                              const std::string& what) {
@@ -42,7 +53,7 @@ inline void expect_agreement(const ShadedImage& device, const reference::Image& 
         EXPECT_TRUE(reference::passes(result, tolerance))
             << what << ", plane " << device.plane_names[static_cast<std::size_t>(plane)] << ": " << result.outside
             << " pixels outside, worst at " << result.worst.x << "," << result.worst.y << ": " << result.worst.device
-            << " for " << result.worst.reference;
+            << " for " << result.worst.reference << describe_worst(frame, result.worst);
     }
     for (int y = 0; y < expected.height; ++y) {
         for (int x = 0; x < expected.width; ++x) {
