@@ -114,18 +114,23 @@ TEST(Read, OnlyTheChannelsAskedFor) {
 }
 
 TEST(Read, PartsWithDifferentWindowsAreOffsetIntoTheFrame) {
-    const TemporaryFolder folder;
     const Window small{10, 12, 20, 30};
     const Window large{-8, -2, 40, 21};
-    Part tiled = make_part(large, {{"P.X", Imf::HALF, 4}}, Imf::ZIPS_COMPRESSION, "second");
-    tile(tiled, 32, 32);
-    write_parts(folder / "a.exr", {make_part(small, {{"N.X", Imf::FLOAT, 3}}, Imf::PIZ_COMPRESSION, "first"), tiled});
-    const Picture picture = read_picture(folder / "a.exr", 2);
-    EXPECT_EQ(picture.plan.frame.data_window, (Window{-8, -2, 40, 30}));
-    const Picture first = read_picture(folder / "a.exr", 2, {"N.X"});
-    expect_pattern(first, {{"N.X", Imf::FLOAT, 3}}, small);
-    const Picture second = read_picture(folder / "a.exr", 2, {"P.X"});
-    expect_pattern(second, {{"P.X", Imf::HALF, 4}}, large);
+    for (const Imf::Compression compression : {Imf::NO_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+        for (const bool tiled : {false, true}) {
+            const TemporaryFolder folder;
+            Part first = make_part(small, {{"N.X", Imf::FLOAT, 3}}, compression, "first");
+            Part second = make_part(large, {{"P.X", Imf::HALF, 4}}, compression, "second");
+            tile(tiled ? first : second, 16, 8); // one of each kind
+            write_parts(folder / "a.exr", {first, second});
+            const Picture both = read_picture(folder / "a.exr", 2);
+            EXPECT_EQ(both.plan.frame.data_window, (Window{-8, -2, 40, 30}));
+            EXPECT_EQ(both.at(0, 10, 12), pattern(3, 10, 12));
+            EXPECT_EQ(both.at(1, 40, -2), pattern(4, 40, -2));
+            expect_pattern(read_picture(folder / "a.exr", 1, {"N.X"}), {{"N.X", Imf::FLOAT, 3}}, small);
+            expect_pattern(read_picture(folder / "a.exr", 1, {"P.X"}), {{"P.X", Imf::HALF, 4}}, large);
+        }
+    }
 }
 
 TEST(Read, EveryHalfIsWidenedExactly) {
