@@ -39,10 +39,11 @@ std::string caution_text(Caution caution, const RoleChoice& choice, const GBuffe
                    : what + " is in camera space by its writer's default; if so, write normal_space = \"camera\" in "
                             "[gbuffer]";
     case Caution::left_handed:
-        return what + " is Unreal's: left-handed, Z up, centimetres; give camera and lights in the same axes and unit";
+        return what +
+               " is Unreal's: left-handed, Z up, centimetres; give lights in the same axes and unit, and let the "
+               "camera be recovered from the position";
     case Caution::maybe_left_handed:
-        return what + " is Redshift's or Unity's name; Unity is left-handed, Y up: give camera and lights in the same "
-                      "axes";
+        return what + " is Redshift's or Unity's name; Unity is left-handed, Y up: give lights in the same axes";
     case Caution::ray_distance:
         return settings.depth_kind == DepthKind::ray
                    ? std::string()
