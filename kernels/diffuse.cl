@@ -1,5 +1,6 @@
-// Diffuse models: Lambert and the Oren-Nayar family (models.md section 8), as f_cos for E_0 = 1 and
-// albedo 1 (rho in the formulas); the albedo is multiplied in by the caller. Only the full model is not linear in it.
+// Diffuse models: Lambert and the Oren-Nayar family (models.md section 8), as pi f_cos / albedo,
+// that is pi L / rho of the formulas for E_0 = 1; the caller multiplies by albedo/pi. Only the full model is not linear in
+// the albedo.
 // sigma^2 = 2 / shininess is put into every quotient s2/(s2 + c) = 2/(2 + c shininess), which stays finite at
 // shininess 0 (infinitely rough) and becomes Lambert, exactly, for shininess towards infinity.
 #ifndef CLSHADE_DIFFUSE_CL
@@ -8,7 +9,7 @@
 #include "lights.cl"
 
 static inline real lambert(incidence i) {
-    return i.nl * INV_PI_F;
+    return i.nl;
 }
 
 // What of an Oren-Nayar model does not depend on the light.
@@ -34,7 +35,7 @@ static inline oren_nayar_terms oren_nayar_terms_of(real n) {
 static inline real oren_nayar(incidence i, surface s, oren_nayar_terms o) {
     const real gamma = gamma_of(i, s);
     const real t = choose(gamma >= splat(0.0f), i.ratio, i.nl);
-    return fma(i.nl, o.a, o.b * gamma * t) * INV_PI_F;
+    return fma(i.nl, o.a, o.b * gamma * t);
 }
 
 // Section 8.5: A = 1 - 1/(2 + 0.33 n), B = 1/(2.22222 + 0.1 n) in the form of 8.4.
@@ -58,14 +59,14 @@ static inline oren_nayar_terms oren_nayar_qualitative_terms_of(real n) {
 // Section 8.4: L = rho/pi (NL A + B max(0, gamma) min(1, NL/NE)).
 static inline real oren_nayar_simplified_2(incidence i, surface s, oren_nayar_terms o) {
     const real gamma = larger(gamma_of(i, s), splat(0.0f));
-    return fma(i.nl, o.a, o.b * gamma * i.ratio) * INV_PI_F;
+    return fma(i.nl, o.a, o.b * gamma * i.ratio);
 }
 
 // Section 8.3: L = rho/pi NL (A + B max(0, gamma) / max(NL, NE)).
 static inline real oren_nayar_simplified_1(incidence i, surface s, oren_nayar_terms o) {
     const real gamma = larger(gamma_of(i, s), splat(0.0f));
     const real quotient = gamma / larger(i.nl, s.ne);
-    return i.nl * fma(o.b, quotient, o.a) * INV_PI_F;
+    return i.nl * fma(o.b, quotient, o.a);
 }
 
 // Sines and cosines of the two polar angles, the larger angle as alpha, the smaller as beta.
@@ -99,7 +100,7 @@ static inline polar_angles polar_angles_of(incidence i, surface s) {
 static inline real oren_nayar_qualitative(incidence i, surface s, oren_nayar_terms o) {
     const polar_angles p = polar_angles_of(i, s);
     const real bend = larger(p.cos_dphi, splat(0.0f)) * p.sin_alpha * p.sin_beta / p.cos_beta;
-    return i.nl * fma(o.b, bend, o.a) * INV_PI_F;
+    return i.nl * fma(o.b, bend, o.a);
 }
 
 // Section 8.1, the full model of 1994: L1 + L2.
@@ -136,7 +137,7 @@ static inline oren_nayar_full_value oren_nayar_full(incidence i, surface s, oren
     const real c3 = t.c3 * product * product;
     const real l1 = t.c1 + p.cos_dphi * c2 * tan_beta + (1.0f - fabs(p.cos_dphi)) * c3 * tan_mean;
     const real l2 = t.l2 * (1.0f - p.cos_dphi * two_beta_over_pi * two_beta_over_pi);
-    const real common = i.nl * INV_PI_F;
+    const real common = i.nl;
     const oren_nayar_full_value value = {common * l1, common * l2};
     return value;
 }

@@ -5,8 +5,8 @@
 #include "surface.cl"
 
 // Guards of H for L = -E and for N.H <= 0, both only possible with the eye behind the surface.
-#define SMALLEST_HH 1e-7f
-#define SMALLEST_NH 1e-18f // its square is still a normal float
+#define SMALLEST_HH 1e-12f // added to |L + E|^2
+#define SMALLEST_NH 1e-12f
 
 // Everything a model needs of one light at one pixel.
 typedef struct {
@@ -15,7 +15,7 @@ typedef struct {
     real el;       // E.L
     real two_eh;   // 2 E.H = |L + E|
     real nh2;      // (N.H)^2
-    real sin2_nh;  // 1 - (N.H)^2 as |N x H|^2, exact near the highlight's centre
+    real sin2_nh;  // 1 - (N.H)^2 = |H - (N.H) N|^2, without cancellation near the highlight's centre
     real ratio;    // min(1, N.L / N.E): N.L / max(N.L, N.E)
 } incidence;
 
@@ -29,13 +29,16 @@ static inline incidence make_incidence(surface s, vec3 l, real strength) {
 
     // Half vector h = L + E, not normalised: |h|^2 = 2 + 2 E.L, E.H = |h| / 2.
     const vec3 h = add3(l, s.e);
-    const real hh = dot3(h, h);
-    const real inverse_h = inverse_sqrt(larger(hh, splat(SMALLEST_HH)));
-    const real nh = larger((raw_nl + s.raw_ne) * inverse_h, splat(SMALLEST_NH)); // N.(L + E) / |L + E|
-    const vec3 c = cross3(s.n, h);
+    const real hh = fma(h.x, h.x, fma(h.y, h.y, fma(h.z, h.z, splat(SMALLEST_HH))));
+    const real inverse_h = inverse_sqrt(hh);
+    const real inverse_hh = inverse_h * inverse_h;
+    const real along = raw_nl + s.raw_ne; // N.h
+    const real nh = larger(along, splat(SMALLEST_NH));
+    // The part of h across N. What rounding does to `along` moves it along N, at a right angle to what is wanted.
+    const vec3 across = make_vec3(fma(-along, s.n.x, h.x), fma(-along, s.n.y, h.y), fma(-along, s.n.z, h.z));
     i.two_eh = hh * inverse_h;
-    i.nh2 = nh * nh;
-    i.sin2_nh = dot3(c, c) * (inverse_h * inverse_h);
+    i.nh2 = nh * nh * inverse_hh;
+    i.sin2_nh = dot3(across, across) * inverse_hh;
     return i;
 }
 

@@ -19,7 +19,7 @@ static inline radiance shade_material_0(inputs in, surface s, mask mine, results
     const rgb raw_albedo = make_rgb(load_input(in, 6), load_input(in, 7), load_input(in, 8));
     const rgb albedo = clamp_unit_rgb(raw_albedo);
     const real half_shininess = 0.5f * shininess;
-    const rgb colour = multiply_rgb(albedo, complement(f0));
+    const rgb colour = scale_rgb(multiply_rgb(albedo, complement(f0)), INV_PI_F);
 
     light_sums sums = no_light();
     for (int k = 0; k < light_count; ++k) {

@@ -42,15 +42,16 @@ static inline real log2_cosine_squared(real cos2, real sin2) {
     const integer bits = AS_INTEGER(cos2) - sqrt_half;
     const integer exponent = bits >> 23;
     const real mantissa = AS_REAL((bits & (integer)(0x007fffff)) + sqrt_half);
-    const real f = choose(exponent >= (integer)(0), -sin2, mantissa - 1.0f);
-    const real f2 = f * f;
-    const real p01 = fma(f, splat(0.333339512f), splat(-0.499999911f));
-    const real p23 = fma(f, splat(0.199620724f), splat(-0.250017554f));
-    const real p45 = fma(f, splat(0.149179742f), splat(-0.165705085f));
-    const real p67 = fma(f, splat(0.0873484313f), splat(-0.143075213f));
-    const real p = fma(fma(p67, f2, p45), f2 * f2, fma(p23, f2, p01));
-    const real log_f = fma(p, f2, f);
-    return fma(log_f, splat(1.44269504f), LANES_FROM_INTEGER(exponent));
+    // log(1 - t) = -(t + t^2 p(t))
+    const real t = choose(exponent >= (integer)(0), sin2, 1.0f - mantissa);
+    const real t2 = t * t;
+    const real p01 = fma(t, splat(0.333339512f), splat(0.499999911f));
+    const real p23 = fma(t, splat(0.199620724f), splat(0.250017554f));
+    const real p45 = fma(t, splat(0.149179742f), splat(0.165705085f));
+    const real p67 = fma(t, splat(0.0873484313f), splat(0.143075213f));
+    const real p = fma(fma(p67, t2, p45), t2 * t2, fma(p23, t2, p01));
+    const real minus_log = fma(p, t2, t);
+    return fma(minus_log, splat(-1.44269504f), LANES_FROM_INTEGER(exponent));
 }
 
 // Division and square root of 16 lanes occupy one port for 10 to 24 cycles each, which would be a third of a one-light

@@ -69,7 +69,7 @@ static inline mask is_finite_rgb(rgb v) {
 // Sums over the lights of E_0 times what does not depend on the material's colours. Fresnel is linear in F0 and the
 // diffuse part in the albedo, so the colours are multiplied in once, after the loop, and take no registers inside it.
 typedef struct {
-    rgb diffuse;  // of the diffuse f_cos for albedo 1
+    rgb diffuse;  // of pi f_cos / albedo of the diffuse part
     rgb square;   // of its part in albedo^2 (full Oren-Nayar only)
     rgb specular; // of the lobe, without normaliser and Fresnel
     rgb weighted; // of the lobe times the Fresnel weight
@@ -90,8 +90,8 @@ static inline rgb add_share(rgb sum, rgb e0, real share) {
     return multiply_add_rgb(e0, grey(share), sum);
 }
 
-// colour (diffuse + albedo square) + normaliser (F0 specular + (1 - F0) weighted); colour = albedo times what the
-// specular part leaves.
+// colour (diffuse + albedo square) + normaliser (F0 specular + (1 - F0) weighted); colour = albedo/pi times what
+// the specular part leaves.
 static inline radiance reflect(light_sums sums, rgb colour, rgb albedo, rgb f0, real normaliser) {
     const rgb diffuse = multiply_rgb(colour, multiply_add_rgb(albedo, sums.square, sums.diffuse));
     const rgb specular =

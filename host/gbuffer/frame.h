@@ -25,7 +25,7 @@
 //  7. Material: the one whose ids hold the material_id plane's value rounded to the nearest whole number, else the
 //     first. A value further than 0.01 from a whole number is counted as a fractional id (on covered pixels).
 //  8. Lights: L, E_0 as in scene.h. NL = N.L; no light unless NL > 0. NE = max(N.E, 1e-4) wherever formulas say N.E.
-//     With m = sqrt(max(|L+E|^2, 1e-7)): H = (L+E)/m, E.H = |L+E|^2/(2 m), N.H = N.(L+E)/m, not below 1e-18, so that a
+//     With m = sqrt(max(|L+E|^2, 1e-12)): H = (L+E)/m, E.H = |L+E|^2/(2 m), N.H = max(N.(L+E), 1e-12)/m, so that a
 //     surface seen from behind needs no case of its own. NH^0 = 1. gamma = E.L - NE NL with the clamped NE;
 //     cos(dphi) = gamma/(sin sin) is clamped to [-1, 1].
 //  9. Combination, per light: blinn_phong: diffuse (1 - F0), blinn_phong_exact: diffuse (1 - Schlick(F0, NL)); none:

@@ -11,7 +11,7 @@ struct Angles {
     double ne = 0.0;      ///< max(N.E, 1e-4)
     double el = 0.0;      ///< E.L
     double eh = 0.0;      ///< E.H, 0..1
-    double nh = 0.0;      ///< N.H, 1e-18..1
+    double nh = 0.0;      ///< N.H, above 0
     double sin2_nh = 1.0; ///< |N x H|^2 = 1 - (N.H)^2 without its cancellation; means nothing where nh was raised
     double gamma = 0.0;   ///< E.L - N.E N.L: dot product of the tangential parts of L and E
 };

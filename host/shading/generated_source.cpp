@@ -140,8 +140,9 @@ std::string read_parameters(const Frame& frame, const BoundMaterial& material, s
     } else {
         text += "    const rgb albedo = grey(splat(0.0f));\n";
     }
-    text += material.specular == SpecularModel::none ? "    const rgb colour = albedo;\n"
-                                                     : "    const rgb colour = multiply_rgb(albedo, complement(f0));\n";
+    text += material.specular == SpecularModel::none
+                ? "    const rgb colour = scale_rgb(albedo, INV_PI_F);\n"
+                : "    const rgb colour = scale_rgb(multiply_rgb(albedo, complement(f0)), INV_PI_F);\n";
     return text;
 }
 

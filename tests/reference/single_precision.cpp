@@ -31,11 +31,12 @@ struct Values {
     float diffuse_n = 0.0F;
 };
 
-float lobe_single(const glm::vec3& n, const glm::vec3& h, float shininess, LobeForm form) {
+/// `length`: of L + E, which h was divided by.
+float lobe_single(const glm::vec3& n, const glm::vec3& h, float length, float shininess, LobeForm form) {
     if (shininess == 0.0F) {
         return 1.0F;
     }
-    const float nh = std::max(glm::dot(n, h), 1e-18F);
+    const float nh = std::max(glm::dot(n, h), 1e-12F / length);
     const glm::vec3 cross = glm::cross(n, h);
     const float by_sine = 0.5F * std::log1p(-std::min(glm::dot(cross, cross), 1.0F));
     const float by_cosine = std::log(std::min(nh, 1.0F));
@@ -52,10 +53,10 @@ glm::vec3 reflect_single(const BoundMaterial& m, const Values& v, const glm::vec
     const float ne = std::max(glm::dot(n, e), 1e-4F);
     const glm::vec3 sum = l + e;
     const float length2 = glm::dot(sum, sum);
-    const float length = std::sqrt(std::max(length2, 1e-7F));
+    const float length = std::sqrt(std::max(length2, 1e-12F));
     const glm::vec3 h = sum / length;
     const float eh = length2 / (2.0F * length);
-    const float lobe = lobe_single(n, h, v.n, form);
+    const float lobe = lobe_single(n, h, length, v.n, form);
     const bool exact = m.specular == SpecularModel::blinn_phong_exact;
     const float norm =
         exact ? (v.n + 2.0F) / (12.5663706F * (2.0F - std::exp2(-0.5F * v.n))) : 0.0397436F * v.n + 0.0856832F;
