@@ -13,10 +13,6 @@ target_compile_options(clshade_warnings INTERFACE
 function(clshade_component name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(NOT sources) # TEMPORARY while the house is being built
-    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp "int clshade_empty_${name}_;\n")
-    set(sources ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)
-  endif()
   add_library(clshade_${name} STATIC ${sources})
   add_library(clshade::${name} ALIAS clshade_${name})
   set_target_properties(clshade_${name} PROPERTIES EXPORT_NAME ${name})
