@@ -19,27 +19,28 @@ const reference::Tolerance alpha_tolerance = reference::Tolerance::plain(1.2e-7,
 struct Group {
     std::string model;
     reference::Tolerance tolerance;
-    std::vector<bool> materials; ///< by index, shifted by one: entry 0 is "no surface"
+    std::vector<int> materials; ///< indices; -1: no surface
+
+    [[nodiscard]] bool claims(int material) const {
+        return std::find(materials.begin(), materials.end(), material) != materials.end();
+    }
 };
 
 // Pairs of models in the order of the materials, and the pixels without a surface.
 std::vector<Group> groups_of(const Frame& frame, const ToleranceOverride& wanted) {
-    const std::size_t count = frame.materials.size() + 1;
     std::vector<Group> groups;
-    for (std::size_t i = 0; i < frame.materials.size(); ++i) {
-        const BoundMaterial& material = frame.materials[i];
+    int index = 0;
+    for (const BoundMaterial& material : frame.materials) {
         const std::string model = pair_name(material.specular, material.diffuse);
         auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.model == model; });
         if (found == groups.end()) {
             const auto defaults = reference::default_tolerance(material.specular, material.diffuse);
-            groups.push_back({model, wanted.apply(defaults), std::vector<bool>(count, false)});
+            groups.push_back({model, wanted.apply(defaults), {}});
             found = groups.end() - 1;
         }
-        found->materials[i + 1] = true;
+        found->materials.push_back(index++);
     }
-    Group empty{"no_surface", reference::Tolerance::plain(0.0, 0.0, 100.0), std::vector<bool>(count, false)};
-    empty.materials[0] = true;
-    groups.push_back(std::move(empty));
+    groups.push_back({"no_surface", reference::Tolerance::plain(0.0, 0.0, 100.0), {-1}});
     return groups;
 }
 
@@ -94,9 +95,8 @@ std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shad
     std::vector<CheckResult> results;
     for (const Group& group : groups_of(frame, wanted)) {
         std::vector<std::uint8_t> selected(expected.material.size());
-        std::transform(expected.material.begin(), expected.material.end(), selected.begin(), [&](int material) {
-            return group.materials.at(static_cast<std::size_t>(material + 1)) ? std::uint8_t{1} : std::uint8_t{0};
-        });
+        std::transform(expected.material.begin(), expected.material.end(), selected.begin(),
+                       [&](int material) { return group.claims(material) ? std::uint8_t{1} : std::uint8_t{0}; });
         if (std::find(selected.begin(), selected.end(), 1) == selected.end()) {
             continue;
         }

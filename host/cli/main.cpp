@@ -121,7 +121,8 @@ ExitCode flushed(ExitCode code) {
 
 ExitCode report(const char* message, ExitCode code) {
     std::fflush(stdout);
-    fmt::print(stderr, "clshade: {}\n", one_line(message));
+    const std::string line = fmt::format("clshade: {}\n", one_line(message));
+    std::fputs(line.c_str(), stderr); // never throws; if nobody can be told, the exit code still tells
     return code;
 }
 

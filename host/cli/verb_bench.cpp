@@ -224,7 +224,12 @@ ExitCode bench(const BenchFlags& flags, JsonReport& report) {
     const double regress = flags.regress.empty() ? default_regress : parse_number("--regress", flags.regress, 0.0);
     Session session(flags.common);
     if (flags.list) {
-        for (const std::string& key : benchmark_keys(options_of(flags, session))) {
+        const std::vector<std::string> keys = benchmark_keys(options_of(flags, session));
+        if (keys.empty()) {
+            throw UsageError(fmt::format(
+                "--filter: no kernel's key is found by '{}'; `clshade bench --list` shows them", flags.filter));
+        }
+        for (const std::string& key : keys) {
             fmt::print("{}\n", key);
         }
         return ExitCode::ok;

@@ -47,6 +47,7 @@ nlohmann::json json_of(const Window& window) {
 
 std::vector<std::string> channel_names(const ImageLayout& layout, const std::vector<int>& channels) {
     std::vector<std::string> names;
+    names.reserve(channels.size());
     for (const int channel : channels) {
         names.push_back(layout.channels[static_cast<std::size_t>(channel)].name);
     }

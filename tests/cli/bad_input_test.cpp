@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <ostream>
 
 namespace clshade::tests {
 namespace {
@@ -27,9 +28,17 @@ struct BadInput {
     std::vector<std::string> flags;                   ///< beside "shade in.exr -o out.exr"
 };
 
+// How GoogleTest shows the case.
+[[maybe_unused]] std::ostream& operator<<(std::ostream& stream, const BadInput& test) {
+    return stream << test.name;
+}
+
 void good(const TemporaryFolder& folder) {
     write_gbuffer(folder / "in.exr", surface_planes());
 }
+
+// A scene without a light is refused as well; that must not be the complaint.
+const std::string light = "\n[[light]]\nname = \"sun\"\ntype = \"distant\"\ndirection = [0, 0, -1]\nirradiance = 1.0\n";
 
 BadInput bad_scene(const std::string& name, const std::string& text, std::vector<std::string> words) {
     words.emplace_back("scene.toml:");
@@ -38,7 +47,7 @@ BadInput bad_scene(const std::string& name, const std::string& text, std::vector
             std::move(words),
             [text](const TemporaryFolder& folder) {
                 good(folder);
-                write_bytes(folder / "scene.toml", "version = 1\n" + text);
+                write_bytes(folder / "scene.toml", "version = 1\n" + text + light);
             },
             {"--scene", "scene.toml"}};
 }
@@ -106,7 +115,7 @@ std::vector<BadInput> bad_roles() {
                    {"--set", "material.default.diffuse.albedo=\"Albdo\""}),
         bad_planes("unknown_role_channel", surface_planes(), {"Nromal"}, {"--set", "gbuffer.normal=\"Nromal\""}),
         bad_planes("filtered_ids", surface_planes_and(filtered_id), {"in.exr", "filtered", "pixels"},
-                   {"--set", "material.a.ids=[1]"}),
+                   {"--set", "material.a={ids=[1],diffuse={model=\"lambert\"}}"}),
         bad_planes("unknown_view", surface_planes(), {"middle"}, {"--view", "middle"}),
         bad_planes("unknown_kept_layer", surface_planes(), {"--keep", "Albdo"}, {"--keep", "Albdo"}),
         {"no_camera",
@@ -121,7 +130,7 @@ std::vector<BadInput> bad_roles() {
 
 std::vector<BadInput> bad_scenes() {
     return {
-        {"scene_missing", 1, {"scene.toml"}, good, {"--scene", "scene.toml"}},
+        {"scene_missing", 2, {"scene.toml"}, good, {"--scene", "scene.toml"}},
         bad_scene("scene_syntax", "[camera\n", {":2:"}),
         bad_scene("scene_unknown_key", "[material.default]\nspecluar = { model = \"blinn_phong\" }\n",
                   {":3:", "specluar", "did you mean 'specular'?"}),
@@ -282,8 +291,8 @@ TEST(BadOutput, AFullDiskLeavesNothing) {
         EXPECT_THAT(run.error_lines().back(), HasSubstr(output));
         EXPECT_EQ(folder.names(), before);
     }
-    settings.file_size_limit = 0; // nor can a report be written
-    EXPECT_EQ(run_clshade({"models", "--json", "r.json"}, settings).exit_code, 1);
+    settings.file_size_limit = 300; // nor can a report be written; the error line can
+    EXPECT_EQ(run_clshade({"models", "-q", "--json", "r.json"}, settings).exit_code, 1);
     EXPECT_EQ(folder.names(), before);
 }
 

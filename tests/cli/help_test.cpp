@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <ostream>
 
 namespace clshade::tests {
 namespace {
@@ -80,6 +81,11 @@ struct WrongFlags {
     std::vector<std::string> arguments;
     std::vector<std::string> words;
 };
+
+// How GoogleTest shows the case.
+[[maybe_unused]] std::ostream& operator<<(std::ostream& stream, const WrongFlags& test) {
+    return stream << test.name;
+}
 
 class Usage : public ::testing::TestWithParam<WrongFlags> {};
 

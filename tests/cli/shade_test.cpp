@@ -276,8 +276,9 @@ TEST_F(Sequence, UpdateSkipsWhatIsNewerAndComplete) {
         return shade_in(folder, {"in.#.exr", "-o", "out.#.exr", "-u", "--json", "r.json"});
     };
     const auto statuses = [&] {
+        const nlohmann::json report = nlohmann::json::parse(bytes_of(folder / "r.json"));
         std::vector<std::string> all;
-        for (const auto& result : nlohmann::json::parse(bytes_of(folder / "r.json"))["results"]) {
+        for (const auto& result : report["results"]) {
             all.push_back(result["status"]);
         }
         return all;
