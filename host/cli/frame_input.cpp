@@ -6,6 +6,7 @@
 #include "host/scene/scene_file.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <fstream>
@@ -70,6 +71,9 @@ LoadedFrame load_frame(PlannedInput input, const Scene& scene, int threads) {
     append_unique(loaded.warnings, input.layout.warnings);
     append_unique(loaded.warnings, input.roles.warnings);
     append_unique(loaded.warnings, loaded.frame.warnings);
+    for (const std::string& note : loaded.frame.notes) {
+        spdlog::info("{}: {}", input.file.string(), note);
+    }
     loaded.layout = std::move(input.layout);
     return loaded;
 }

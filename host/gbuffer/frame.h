@@ -116,7 +116,8 @@ struct Frame {
     std::vector<BoundMaterial> materials; ///< never empty; the first takes pixels no other claims
     BoundParameter emission;              ///< used only if has_emission
     bool has_emission = false;
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings; ///< what may be wrong with the picture
+    std::vector<std::string> notes;    ///< what was found out and is no fault, such as a recovered camera's residual
 };
 
 /// Which outputs are wanted beside R, G, B, A.

@@ -143,7 +143,7 @@ void recover_camera(Frame& frame, bool pose_known) {
     try {
         const RecoveredView recovered = recover_view(frame);
         frame.view = recovered.view;
-        frame.warnings.push_back(fmt::format(
+        frame.notes.push_back(fmt::format(
             "camera recovered from Position: median error {:.2g} px, 99 % within {:.2g} px, {} of {} samples, {}",
             recovered.median_error_px, recovered.p99_error_px,
             std::lround(recovered.inlier_fraction * recovered.samples), recovered.samples,

@@ -350,7 +350,7 @@ TEST(FinishFrame, RecoversTheCameraAndTurnsLights) {
     EXPECT_LT(glm::length(frame.lights[0].direction - view.view_axis), 1e-4);
     EXPECT_LT(glm::length(frame.lights[0].position - view.eye), 1e-3);
     EXPECT_EQ(frame.lights[1].direction, glm::dvec3(1.0, 0.0, 0.0));
-    EXPECT_THAT(frame.warnings, ElementsAre(HasSubstr("camera recovered from Position: median error")));
+    EXPECT_THAT(frame.notes, ElementsAre(HasSubstr("camera recovered from Position: median error")));
 }
 
 TEST(FinishFrame, ChecksAGivenCameraAgainstThePositions) {
