@@ -74,8 +74,10 @@ std::vector<TestPlane> surface_planes() {
     for (std::size_t c = 0; c < axes.size(); ++c) {
         planes.push_back({"Normal." + axes[c], [c](int x, int y) { return normal_at(x, y)[c]; }});
     }
-    planes.push_back({"Position.X", [](int x, int /*y*/) { return 0.05F * static_cast<float>(x - test_width / 2); }});
-    planes.push_back({"Position.Y", [](int /*x*/, int y) { return 0.05F * static_cast<float>(test_height / 2 - y); }});
+    planes.push_back(
+        {"Position.X", [](int x, int /*y*/) { return 0.05F * (static_cast<float>(x) - 0.5F * test_width); }});
+    planes.push_back(
+        {"Position.Y", [](int /*x*/, int y) { return 0.05F * (0.5F * test_height - static_cast<float>(y)); }});
     planes.push_back({"Position.Z", [](int x, int y) { return 0.1F * normal_at(x, y)[2]; }});
     planes.push_back({"Depth.Z", [](int x, int y) { return 5.0F - 0.1F * normal_at(x, y)[2]; }});
     for (const char* name : {"Albedo.R", "Albedo.G", "Albedo.B"}) {
@@ -110,7 +112,7 @@ void write_deep(const std::filesystem::path& file) {
     header.setType(Imf::DEEPSCANLINE);
     header.compression() = Imf::ZIPS_COMPRESSION;
     Imf::DeepScanLineOutputFile output(file.c_str(), header);
-    std::vector<unsigned> counts(static_cast<std::size_t>(test_width) * test_height, 1);
+    std::vector<unsigned> counts(std::size_t{test_width} * test_height, 1);
     std::vector<float> values(counts.size(), 2.0F);
     std::vector<float*> samples(counts.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -130,7 +132,7 @@ void write_subsampled(const std::filesystem::path& file) {
     Imf::Header header = header_of({"Y"}, Imf::HALF);
     header.channels().insert("RY", Imf::Channel(Imf::HALF, 2, 2));
     header.channels().insert("BY", Imf::Channel(Imf::HALF, 2, 2));
-    std::vector<std::uint16_t> zeros(static_cast<std::size_t>(test_width) * test_height, 0);
+    std::vector<std::uint16_t> zeros(std::size_t{test_width} * test_height, 0);
     char* data = static_cast<char*>(static_cast<void*>(zeros.data()));
     Imf::FrameBuffer buffer;
     buffer.insert("Y", Imf::Slice(Imf::HALF, data, 2, 2 * test_width));

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <limits>
 
 namespace clshade::tests {
@@ -316,36 +317,42 @@ TEST_F(Sequence, ProgressForFarms) {
     EXPECT_THAT(plain.err + alf.err, Not(HasSubstr("\r"))) << "no bar without a terminal";
 }
 
-// Interrupted in the middle of a long sequence: the code says so, every output that is there is whole, and there is no
-// temporary.
+// Interrupted in the middle of a long sequence, while a file is being written: the code says so, every output that is
+// there is whole, and there is no temporary.
 TEST_F(Sequence, InterruptionLeavesNothingHalfWritten) {
-    constexpr int many = 2000;
+    constexpr int many = 300;
     for (int frame = 5; frame <= many; ++frame) {
         std::string name = std::to_string(frame);
         name.insert(0, 4 - name.size(), '0');
         std::filesystem::create_hard_link(folder / "in.0001.exr", folder / ("in." + name + ".exr"));
     }
-    for (const auto& [signal, code] : {std::pair(SIGINT, 130), std::pair(SIGTERM, 143)}) {
+    const auto writing = [&] {
+        const std::vector<std::string> names = folder.names();
+        return std::any_of(names.begin(), names.end(), [](const std::string& name) {
+            return !name.starts_with("in.") && !(name.starts_with("out.") && name.ends_with(".exr"));
+        });
+    };
+    int caught_writing = 0;
+    for (int round = 0; round < 10; ++round) {
+        const int signal = round % 2 == 0 ? SIGINT : SIGTERM;
         RunSettings settings;
         settings.folder = folder.path();
         bool sent = false;
-        settings.meanwhile = [&, to_send = signal](double) {
-            const bool now = !sent && std::filesystem::exists(folder / "out.0003.exr");
+        settings.meanwhile = [&](double) {
+            const bool now = !sent && std::filesystem::exists(folder / "out.0003.exr") && writing();
             sent = sent || now;
-            return now ? to_send : 0;
+            return now ? signal : 0;
         };
         const Outcome run = run_clshade({"shade", "in.####.exr", "-o", "out.####.exr", "-q"}, settings);
-        EXPECT_EQ(run.exit_code, code);
-        EXPECT_TRUE(sent);
-        const std::vector<std::string> left = outputs();
-        EXPECT_LT(left.size(), static_cast<std::size_t>(many));
-        for (const std::string& name : left) {
-            EXPECT_TRUE(name.ends_with(".exr")) << name;
+        caught_writing += sent ? 1 : 0;
+        EXPECT_EQ(run.exit_code, !sent ? 0 : (signal == SIGINT ? 130 : 143));
+        EXPECT_FALSE(writing()) << "a temporary was left";
+        for (const std::string& name : outputs()) {
             EXPECT_EQ(decode(folder / name).width, test_width) << name;
             std::filesystem::remove(folder / name);
         }
-        EXPECT_EQ(folder.names().size(), static_cast<std::size_t>(many)) << "only inputs may be left";
     }
+    EXPECT_GT(caught_writing, 0) << "no write was ever seen: the test proves nothing";
 }
 
 } // namespace
