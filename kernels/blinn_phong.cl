@@ -7,7 +7,7 @@
 
 // Section 1: (n+2) / (4 pi (2 - 2^(-n/2))), the reciprocal of the lobe's hemispherical integral at normal view.
 static inline real normaliser_exact(real n) {
-    return (n + 2.0f) * (0.25f * INV_PI_F) / (2.0f - exp2_clamped(-0.5f * n));
+    return (n + 2.0f) * (0.25f * INV_PI_F) * inverse(2.0f - exp2_clamped(-0.5f * n));
 }
 
 // Section 2: the deck's linear fit of it.

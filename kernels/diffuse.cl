@@ -26,7 +26,7 @@ static inline real gamma_of(incidence i, surface s) {
 static inline oren_nayar_terms oren_nayar_terms_of(real n) {
     const real p = fma(n, splat(0.65f), splat(2.0f));
     const real q = fma(n, splat(0.1f), splat(2.22222f));
-    const real r = 1.0f / (p * q);
+    const real r = inverse(p * q);
     const oren_nayar_terms t = {1.0f - q * r, p * r};
     return t;
 }
@@ -42,7 +42,7 @@ static inline real oren_nayar(incidence i, surface s, oren_nayar_terms o) {
 static inline oren_nayar_terms oren_nayar_shininess_terms_of(real n) {
     const real p = fma(n, splat(0.33f), splat(2.0f));
     const real q = fma(n, splat(0.1f), splat(2.22222f));
-    const real r = 1.0f / (p * q);
+    const real r = inverse(p * q);
     const oren_nayar_terms t = {1.0f - q * r, p * r};
     return t;
 }
@@ -51,7 +51,7 @@ static inline oren_nayar_terms oren_nayar_shininess_terms_of(real n) {
 static inline oren_nayar_terms oren_nayar_qualitative_terms_of(real n) {
     const real p = fma(n, splat(0.33f), splat(2.0f));
     const real q = fma(n, splat(0.09f), splat(2.0f));
-    const real r = 1.0f / (p * q);
+    const real r = inverse(p * q);
     const oren_nayar_terms t = {1.0f - q * r, 0.9f * p * r};
     return t;
 }
@@ -110,11 +110,11 @@ typedef struct {
 
 static inline oren_nayar_full_terms oren_nayar_full_terms_of(real n) {
     oren_nayar_full_terms t;
-    const real r = 1.0f / fma(n, splat(0.09f), splat(2.0f));
-    t.c1 = 1.0f - 1.0f / fma(n, splat(0.33f), splat(2.0f));
+    const real r = inverse(fma(n, splat(0.09f), splat(2.0f)));
+    t.c1 = 1.0f - inverse(fma(n, splat(0.33f), splat(2.0f)));
     t.c2 = 0.9f * r;
     t.c3 = 0.25f * r;
-    t.l2 = 0.34f / fma(n, splat(0.13f), splat(2.0f));
+    t.l2 = 0.34f * inverse(fma(n, splat(0.13f), splat(2.0f)));
     return t;
 }
 

@@ -76,6 +76,23 @@ static inline vec3 affine(__constant const float* at, __constant const float* dx
 }
 #endif
 
+#if VIEW_HAS_RAYS && PLANE_DEPTH >= 0
+static inline vec3 position_from_depth(vec3 ray, real depth, pixel_centre centre,
+                                       __constant const FrameConstants* frame) {
+    const real reach = smaller(depth, splat(FARTHEST)); // a sentinel may be Inf
+#if DEPTH_IS_RAY_LENGTH
+    const vec3 along = scale3(ray, reach * inverse_sqrt(dot3(ray, ray)));
+#else
+    const vec3 along = scale3(ray, reach);
+#endif
+#if VIEW_IS_ORTHOGRAPHIC
+    return add3(affine(frame->origin, frame->origin_dx, frame->origin_dy, centre), along);
+#else
+    return add3(splat3(frame->eye_hi), along);
+#endif
+}
+#endif
+
 // The normal of the planes in world space, not yet of unit length.
 static inline vec3 load_normal(inputs in, real unpremultiply, __constant const FrameConstants* frame) {
     vec3 n = make_vec3(load_input(in, PLANE_NORMAL_X), load_input(in, PLANE_NORMAL_Y), load_input(in, PLANE_NORMAL_Z));
@@ -125,51 +142,40 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
     s.nonfinite = taint != splat(0.0f);
     s.alive = covered & negated(s.nonfinite) & (length2 >= splat(SHORTEST_NORMAL * SHORTEST_NORMAL));
 
-    // Eye vector and position.
+    // Position: from its plane where that can be believed, else from depth.
     s.position = make_vec3(splat(0.0f), splat(0.0f), splat(0.0f));
-#if VIEW_HAS_RAYS
-    const pixel_centre centre = centre_of(first_pixel + in.pixel, frame);
-    const vec3 ray = affine(frame->direction, frame->direction_dx, frame->direction_dy, centre);
-#if PLANE_DEPTH >= 0
-    const real reach = smaller(depth, splat(FARTHEST)); // a sentinel may be Inf
-#if DEPTH_IS_RAY_LENGTH
-    const vec3 along = scale3(ray, reach * inverse_sqrt(dot3(ray, ray)));
-#else
-    const vec3 along = scale3(ray, reach);
-#endif
-#if VIEW_IS_ORTHOGRAPHIC
-    s.position = add3(affine(frame->origin, frame->origin_dx, frame->origin_dy, centre), along);
-#else
-    s.position = add3(splat3(frame->eye_hi), along);
-#endif
-#endif
-    const vec3 backwards = scale3(ray, splat(-1.0f));
-#else
-    const vec3 backwards = scale3(splat3(frame->view_axis), splat(-1.0f));
-#endif
-
+    mask placed = FALSE_MASK;
 #if PLANE_POSITION_X >= 0
-    const vec3 p = make_vec3(load_input(in, PLANE_POSITION_X), load_input(in, PLANE_POSITION_Y),
-                             load_input(in, PLANE_POSITION_Z));
+    s.position = make_vec3(load_input(in, PLANE_POSITION_X), load_input(in, PLANE_POSITION_Y),
+                           load_input(in, PLANE_POSITION_Z));
 #if PLANE_DEPTH >= 0
-    const mask placed = within;
+    placed = within;
 #elif VIEW_HAS_RAYS
-    const mask placed = (p.x != splat(0.0f)) | (p.y != splat(0.0f)) | (p.z != splat(0.0f));
+    placed = (s.position.x != splat(0.0f)) | (s.position.y != splat(0.0f)) | (s.position.z != splat(0.0f));
 #else
-    const mask placed = negated(FALSE_MASK);
+    placed = negated(FALSE_MASK);
 #endif
-    s.position = choose3(placed, p, s.position);
 #endif
-
+    // The vector to the eye: from the position where there is one, else back along the pixel's ray.
+    const vec3 hi = splat3(frame->eye_hi);
+    const vec3 lo = splat3(frame->eye_lo);
+    vec3 to_eye = make_vec3((hi.x - s.position.x) + lo.x, (hi.y - s.position.y) + lo.y, (hi.z - s.position.z) + lo.z);
+    const mask unplaced = s.alive & negated(placed);
+    if (any_lane(unplaced)) { // with a position plane a rare case
+#if VIEW_HAS_RAYS
+        const pixel_centre centre = centre_of(first_pixel + in.pixel, frame);
+        const vec3 ray = affine(frame->direction, frame->direction_dx, frame->direction_dy, centre);
+        to_eye = choose3(unplaced, scale3(ray, splat(-1.0f)), to_eye);
+#if PLANE_DEPTH >= 0
+        s.position = choose3(unplaced, position_from_depth(ray, depth, centre, frame), s.position);
+#endif
+#else
+        to_eye = choose3(unplaced, scale3(splat3(frame->view_axis), splat(-1.0f)), to_eye);
+#endif
+    }
 #if VIEW_IS_ORTHOGRAPHIC
     s.e = scale3(splat3(frame->view_axis), splat(-1.0f));
 #else
-    vec3 to_eye = backwards;
-#if PLANE_POSITION_X >= 0
-    const vec3 hi = splat3(frame->eye_hi);
-    const vec3 lo = splat3(frame->eye_lo);
-    to_eye = choose3(placed, make_vec3((hi.x - p.x) + lo.x, (hi.y - p.y) + lo.y, (hi.z - p.z) + lo.z), backwards);
-#endif
     s.e = scale3(to_eye, inverse_sqrt(dot3(to_eye, to_eye)));
 #endif
     s.raw_ne = dot3(s.n, s.e);
