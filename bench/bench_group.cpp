@@ -106,7 +106,8 @@ void BenchGroup::check_against_reference(const PlaneSlab& picture) const {
             const reference::Pixel expected = reference::shade_pixel(frame_, x, y, {});
             for (int c = 0; c < 3; ++c) {
                 const double value = expected.radiance[c];
-                const double error = std::abs(double{picture.at(c, x, y)} - value) / (1e-3 + std::abs(value));
+                const double error =
+                    std::abs(static_cast<double>(picture.at(c, x, y)) - value) / (1e-3 + std::abs(value));
                 if (!(error <= rival_tolerance)) {
                     throw RuntimeFailure(fmt::format("the kernel gives {} at pixel ({}, {}), the reference {}; run "
                                                      "clshade check",

@@ -31,13 +31,14 @@ double stream_difference(const Frame& frame, int planes_in, const PlaneSlab& out
             double sum = 0.0;
             double size = 0.0;
             for (int p = 0; p < planes_in; ++p) {
-                const double value = frame.planes.at(p, x, y);
+                const auto value = static_cast<double>(frame.planes.at(p, x, y));
                 sum += value;
                 size += std::abs(value);
             }
             for (int p = 0; p < planes_out; ++p) {
                 const double expected = (p + 1) * sum;
-                worst = worse(worst, std::abs(double{output.at(p, x, y)} - expected) / (1e-3 + (p + 1) * size));
+                worst = worse(worst,
+                              std::abs(static_cast<double>(output.at(p, x, y)) - expected) / (1e-3 + (p + 1) * size));
             }
         }
     }
@@ -58,7 +59,7 @@ double picture_difference(const PlaneSlab& device, const std::function<double(in
     for (int p = 0; p < 3; ++p) {
         for (int y = 0; y < device.height(); ++y) {
             for (int x = 0; x < device.width(); ++x) {
-                const double a = device.at(p, x, y);
+                const auto a = static_cast<double>(device.at(p, x, y));
                 const double b = other(p, x, y);
                 worst = worse(worst, std::abs(a - b) / (1e-3 + std::abs(b)));
             }

@@ -13,7 +13,8 @@ namespace clshade {
 
 namespace {
 constexpr std::size_t page = 4096;
-}
+constexpr std::size_t mebibyte = std::size_t{1} << 20U;
+} // namespace
 
 AlignedBuffer::AlignedBuffer(std::size_t size) : size_(size) {
     if (size == 0) {
@@ -26,7 +27,7 @@ AlignedBuffer::AlignedBuffer(std::size_t size) : size_(size) {
     data_ = static_cast<float*>(std::aligned_alloc(page, bytes));
     if (data_ == nullptr) {
         throw RuntimeFailure(fmt::format("out of memory for {} MiB of image planes; use a smaller image or --max-mem",
-                                         bytes / (1024 * 1024)));
+                                         bytes / mebibyte));
     }
     std::memset(data_, 0, bytes);
 }

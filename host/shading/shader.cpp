@@ -249,7 +249,7 @@ std::size_t Shader::band_pixels(const Frame& frame, std::size_t outputs) const {
     if (groups == 0) {
         throw RuntimeFailure(
             fmt::format("device '{}': {} MiB of device memory hold no band of {} planes; raise --max-mem", info.name,
-                        limit / (1024 * 1024), planes));
+                        limit >> 20U, planes));
     }
     return std::min<std::size_t>(all, groups * plane_alignment);
 }
