@@ -135,7 +135,7 @@ void write_subsampled(const std::filesystem::path& file) {
     std::vector<std::uint16_t> zeros(std::size_t{test_width} * test_height, 0);
     char* data = static_cast<char*>(static_cast<void*>(zeros.data()));
     Imf::FrameBuffer buffer;
-    buffer.insert("Y", Imf::Slice(Imf::HALF, data, 2, 2 * test_width));
+    buffer.insert("Y", Imf::Slice(Imf::HALF, data, 2, std::size_t{2} * test_width));
     buffer.insert("RY", Imf::Slice(Imf::HALF, data, 2, test_width, 2, 2));
     buffer.insert("BY", Imf::Slice(Imf::HALF, data, 2, test_width, 2, 2));
     Imf::OutputFile output(file.c_str(), header);
