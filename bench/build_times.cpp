@@ -40,15 +40,13 @@ class TemporaryFolder {
     std::filesystem::path path_;
 };
 
-/// The kernel sources, each with a type of its own that nobody uses: drivers cache what the preprocessor leaves, so a
+/// The kernel sources, the main one with a type that nobody uses: drivers cache what the preprocessor leaves, so a
 /// comment would not do.
 SourceSet marked_sources(const std::filesystem::path& kernel_dir, const std::string& mark) {
-    const SourceSet plain = kernel_sources(kernel_dir);
-    SourceSet marked;
-    for (const std::string& name : plain.names()) {
-        marked.add(name, fmt::format("{}\ntypedef int {};\n", plain.text(name), mark), name);
-    }
-    return marked;
+    SourceSet sources = kernel_sources(kernel_dir);
+    const std::string main = "shade.cl";
+    sources.add(main, fmt::format("{}\ntypedef int {};\n", sources.text(main), mark), main);
+    return sources;
 }
 
 double first_launch_ms(Device& device, Frame& frame, const SourceSet& sources, const std::filesystem::path& cache,
