@@ -38,5 +38,11 @@ TEST(Suggest, TakesStrings) {
     EXPECT_EQ(did_you_mean("kay", std::span<const std::string>(names)), "; did you mean 'key'?");
 }
 
+TEST(Suggest, TwoSwappedLettersAreOneMistake) {
+    const std::array<std::string_view, 2> words{"light", "layer"};
+    EXPECT_EQ(did_you_mean("lihgt", words), "; did you mean 'light'?");
+    EXPECT_EQ(did_you_mean("lihtg", words), ""); // two mistakes in five letters
+}
+
 } // namespace
 } // namespace clshade
