@@ -39,9 +39,9 @@ TEST(Suggest, TakesStrings) {
 }
 
 TEST(Suggest, TwoSwappedLettersAreOneMistake) {
-    const std::array<std::string_view, 2> words{"light", "layer"};
-    EXPECT_EQ(did_you_mean("lihgt", words), "; did you mean 'light'?");
-    EXPECT_EQ(did_you_mean("lihtg", words), ""); // two mistakes in five letters
+    const std::array<std::string_view, 2> keys{"light", "layer"};
+    EXPECT_EQ(did_you_mean("lihgt", keys), "; did you mean 'light'?");
+    EXPECT_EQ(did_you_mean("lihtg", keys), ""); // two mistakes in five letters
 }
 
 } // namespace
