@@ -41,7 +41,7 @@ struct RoleRule {
     Caution caution;
 };
 
-/// All rules (conventions: "Channel names and spaces, per producer"), in no particular order.
+/// All rules, from files and documentation of each producer, in no particular order.
 [[nodiscard]] std::span<const RoleRule> role_rules();
 
 /// What Unreal's movie render queue may write before the name of a pass.

@@ -54,7 +54,7 @@ struct RoleAssignment {
     [[nodiscard]] bool has(Role role) const { return !(*this)[role].channels.empty(); }
 };
 
-/// Finds each role by exact layer name per producer (conventions: "Channel names and spaces, per producer"), honours
+/// Finds each role by exact layer name per producer (the table is in role_rules.cpp), honours
 /// the overrides of [gbuffer] and the stereo view (empty: the first view, said in a warning if there are several).
 /// Throws UsageError for an override that names nothing in the file (with near matches), has the wrong number of
 /// channels, or an unknown view.

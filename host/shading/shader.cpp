@@ -15,7 +15,7 @@ namespace clshade {
 
 namespace {
 
-/// One local size for everything: each further one costs a compilation (kernel-performance notes, 46-79 ms).
+/// One local size for everything: each further one costs PoCL a compilation of 46 to 79 ms.
 constexpr std::size_t work_group = 64;
 static_assert(plane_alignment % (work_group * static_cast<std::size_t>(row_alignment)) == 0);
 
