@@ -20,8 +20,8 @@
 //     (then the light is practically absent).
 //  6. Parameters: plane value, divided by c where `averaged` (c > 0 holds here), times scale plus offset, then convert,
 //     then clamped: f0, albedo to [0, 1] (values beyond by more than 1e-3 are counted as clamped), shininess to
-//     [0, 65536], emission to >= 0. ggx_roughness: 2/r^4 - 2; smoothness: r = 1 - x; oren_nayar_sigma: 2/x^2; division by
-//     zero gives the upper clamp.
+//     [0, 65536], emission to >= 0. ggx_roughness: 2/r^4 - 2; smoothness: r = 1 - x; oren_nayar_sigma: 2/x^2; division
+//     by zero gives the upper clamp.
 //  7. Material: the one whose ids hold the material_id plane's value rounded to the nearest whole number, else the
 //     first. A value further than 0.01 from a whole number is counted as a fractional id (on covered pixels).
 //  8. Lights: L, E_0 as in scene.h. NL = N.L; no light unless NL > 0. NE = max(N.E, 1e-4) wherever formulas say N.E.
@@ -79,7 +79,7 @@ struct BoundMaterial {
     SpecularModel specular = SpecularModel::none;
     DiffuseModel diffuse = DiffuseModel::none;
     BoundParameter f0;
-    BoundParameter shininess;         ///< of the specular lobe
+    BoundParameter shininess; ///< of the specular lobe
     BoundParameter albedo;
     BoundParameter diffuse_shininess; ///< of the Oren-Nayar models
 };
@@ -91,8 +91,8 @@ struct BoundMaterial {
 /// view_axis.
 struct View {
     bool orthographic = false;
-    bool has_rays = false;       ///< false: only eye and camera_to_world are known
-    glm::dvec3 eye{0.0};         ///< perspective only
+    bool has_rays = false;                ///< false: only eye and camera_to_world are known
+    glm::dvec3 eye{0.0};                  ///< perspective only
     glm::dvec3 view_axis{0.0, 0.0, -1.0}; ///< unit, the way the camera looks
     glm::dmat3 camera_to_world{1.0};
     glm::dvec3 origin{0.0}, origin_dx{0.0}, origin_dy{0.0};
