@@ -98,8 +98,8 @@ TEST_P(HostRivalsTest, StreamReadsEveryPlane) {
                 double sum = 0.0;
                 double size = 0.0;
                 for (int p = 0; p < planes_in; ++p) {
-                    sum += double{frame.planes.at(p, x, y)};
-                    size += std::abs(double{frame.planes.at(p, x, y)});
+                    sum += static_cast<double>(frame.planes.at(p, x, y));
+                    size += std::abs(static_cast<double>(frame.planes.at(p, x, y)));
                 }
                 // 14 additions in floats: at most 14 roundings of 6e-8 of the sum of sizes.
                 ASSERT_NEAR(rivals.output().at(0, x, y), sum, 1e-6 * size);
@@ -156,8 +156,8 @@ TEST(DeviceRivals, StreamReadsEveryPlaneAtEveryWidth) {
                 double sum = 0.0;
                 double size = 0.0;
                 for (int p = 0; p < planes_in; ++p) {
-                    sum += double{frame.planes.at(p, x, height - 1)};
-                    size += std::abs(double{frame.planes.at(p, x, height - 1)});
+                    sum += static_cast<double>(frame.planes.at(p, x, height - 1));
+                    size += std::abs(static_cast<double>(frame.planes.at(p, x, height - 1)));
                 }
                 for (int p = 0; p < planes_out; ++p) {
                     ASSERT_NEAR(output.at(p, x, height - 1), (p + 1) * sum, (p + 1) * 1e-6 * size)

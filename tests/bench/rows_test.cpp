@@ -89,8 +89,8 @@ TEST(BenchFrame, HoldsPlausibleValuesAndDependsOnTheSeedAlone) {
                 ASSERT_GE(frame.planes.at(p, x, y), 0.0F);
                 ASSERT_LE(frame.planes.at(p, x, y), 1.0F);
             }
-            least_shininess = std::min(least_shininess, double{frame.planes.at(12, x, y)});
-            greatest_shininess = std::max(greatest_shininess, double{frame.planes.at(12, x, y)});
+            least_shininess = std::min(least_shininess, static_cast<double>(frame.planes.at(12, x, y)));
+            greatest_shininess = std::max(greatest_shininess, static_cast<double>(frame.planes.at(12, x, y)));
             ids.insert(frame.planes.at(13, x, y));
             // Tiles of 16 pixels have one id.
             ASSERT_EQ(frame.planes.at(13, x, y), frame.planes.at(13, x / 16 * 16, y / 16 * 16));

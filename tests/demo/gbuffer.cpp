@@ -51,7 +51,7 @@ TEST_F(DemoGBuffer, PositionDepthAndCameraAgree) {
     int checked = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const double depth = at("Depth.Z", x, y);
+            const auto depth = static_cast<double>(at("Depth.Z", x, y));
             if (depth > 6e4) {
                 continue;
             }
@@ -112,7 +112,7 @@ TEST_F(DemoGBuffer, EdgesArePremultiplied) {
     int centre_misses = 0;
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const double c = at("UV.A", x, y);
+            const auto c = static_cast<double>(at("UV.A", x, y));
             ASSERT_TRUE(c >= 0.0 && c <= 1.0);
             // A mean of unit normals is at most as long as the coverage; 1e-5 for sixteen roundings.
             ASSERT_LE(glm::length(at3("Normal", "XYZ", x, y)), c + 1e-5);
