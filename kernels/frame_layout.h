@@ -24,8 +24,7 @@
 #define VIEW_IS_ORTHOGRAPHIC 0
 #define VIEW_HAS_RAYS 0
 
-// Types of light that occur.
-#define HAS_DISTANT_LIGHTS 1
+// Types of light that occur beside distant ones.
 #define HAS_POINT_LIGHTS 0
 #define HAS_SPOT_LIGHTS 0
 

@@ -12,19 +12,19 @@
 #define LIGHT_SPOT 2
 
 typedef struct LightConstants {
-    int type;                    /* LIGHT_DISTANT, ... */
-    float cone_angle;            /* spot: half-angle [rad] */
-    float cone_inverse_width;    /* spot: 1 / (cone_angle softness) [1/rad]; large for a hard edge */
+    int type;                 /* LIGHT_DISTANT, ... */
+    float cone_angle;         /* spot: half-angle [rad] */
+    float cone_inverse_width; /* spot: 1 / (cone_angle softness) [1/rad]; large for a hard edge */
     float unused;
-    float direction[4];          /* distant: unit vector to the light; spot: unit axis, the way the light travels */
-    float position_hi[4];        /* point, spot */
+    float direction[4];   /* distant: unit vector to the light; spot: unit axis, the way the light travels */
+    float position_hi[4]; /* point, spot */
     float position_lo[4];
-    float power[4];              /* distant: irradiance E_0; point, spot: intensity, E_0 = power / distance^2 */
+    float power[4]; /* distant: irradiance E_0; point, spot: intensity, E_0 = power / distance^2 */
 } LightConstants;
 
 typedef struct ParameterConstants {
-    float value[4]   ;
-    float scale;                 /* a plane's value is scale v + offset before conversion */
+    float value[4];
+    float scale; /* a plane's value is scale v + offset before conversion */
     float offset;
     float unused[2];
 } ParameterConstants;
@@ -32,17 +32,17 @@ typedef struct ParameterConstants {
 typedef struct FrameConstants {
     float eye_hi[4];
     float eye_lo[4];
-    float view_axis[4];          /* unit, the way the camera looks */
-    float camera_to_world[12];   /* three rows of four */
-    float origin[4];             /* origin(x, y) = origin + x origin_dx + y origin_dy, x and y at pixel centres */
+    float view_axis[4];        /* unit, the way the camera looks */
+    float camera_to_world[12]; /* three rows of four */
+    float origin[4];           /* origin(x, y) = origin + x origin_dx + y origin_dy, x and y at pixel centres */
     float origin_dx[4];
     float origin_dy[4];
-    float direction[4];          /* likewise; direction . view_axis = 1 */
+    float direction[4]; /* likewise; direction . view_axis = 1 */
     float direction_dx[4];
     float direction_dy[4];
     ParameterConstants emission;
     int light_count;
-    int pitch;                   /* floats from one row of pixels to the next */
+    int pitch; /* floats from one row of pixels to the next */
     int unused[2];
 } FrameConstants;
 

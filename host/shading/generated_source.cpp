@@ -324,7 +324,6 @@ std::string frame_layout_source(const Frame& frame, const AovSelection& aovs) {
     define("VIEW_IS_ORTHOGRAPHIC", frame.view.orthographic ? 1 : 0);
     define("VIEW_HAS_RAYS", frame.view.has_rays ? 1 : 0);
     text += "\n";
-    define("HAS_DISTANT_LIGHTS", has_light(frame, LightType::distant) ? 1 : 0);
     define("HAS_POINT_LIGHTS", has_light(frame, LightType::point) ? 1 : 0);
     define("HAS_SPOT_LIGHTS", has_light(frame, LightType::spot) ? 1 : 0);
     text += "\n";
