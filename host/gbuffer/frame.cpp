@@ -1,5 +1,9 @@
 #include "host/gbuffer/frame.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 namespace clshade {
 
 namespace {
@@ -10,7 +14,29 @@ void add_colour(std::vector<std::string>& names, const std::string& layer) {
     }
 }
 
+/// "blinn_phong", or "blinn_phong+blinn_phong_exact" where the layers differ.
+std::string lobes_key(const std::vector<BoundLayer>& layers) {
+    const auto same = [&](const BoundLayer& layer) { return layer.specular == layers.front().specular; };
+    if (std::all_of(layers.begin(), layers.end(), same)) {
+        return std::string(name_of(layers.front().specular));
+    }
+    std::vector<std::string_view> names;
+    for (const BoundLayer& layer : layers) {
+        names.push_back(name_of(layer.specular));
+    }
+    return fmt::format("{}", fmt::join(names, "+"));
+}
+
 } // namespace
+
+std::string model_key(const BoundMaterial& material) {
+    const std::string lobes = fmt::format("{}.{}", lobes_key(material.layers), name_of(material.diffuse));
+    if (material.layers.size() == 1) {
+        return material.fresnel == FresnelModel::constant ? lobes : lobes + ".exact";
+    }
+    return fmt::format("layers{}.{}.{}.{}", material.layers.size(), lobes, name_of(material.fresnel),
+                       name_of(material.absorption));
+}
 
 std::vector<std::string> output_plane_names(const Frame& frame, const AovSelection& aovs) {
     std::vector<std::string> names{"R", "G", "B", "A"};

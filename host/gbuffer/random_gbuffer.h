@@ -4,14 +4,35 @@
 #include "host/gbuffer/frame.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace clshade {
 
+/// What a random material is made of. Values are up to the frame.
+struct StackShape {
+    std::vector<SpecularModel> layers = {SpecularModel::blinn_phong}; ///< top first
+    DiffuseModel diffuse = DiffuseModel::lambert;
+    FresnelModel fresnel = FresnelModel::constant;
+    AbsorptionModel absorption = AbsorptionModel::none;
+    /// false: every parameter comes from planes (f0 above a spectral layer and metals excepted, which are constants).
+    /// true: each parameter is a constant or planes, by chance.
+    bool some_constant = false;
+    double largest_shininess = 65536.0;
+};
+
 /// A frame of width x height pixels: normals at all angles to the eye including grazing, back-facing and zero ones,
-/// shininess log-uniform over 0..65536 and its ends, F0 0..1 and its ends, albedo 0..1, coverage 0..1, a few mirror
-/// configurations per light so that highlights of any shininess are hit; lights of all three types; one material of
-/// the given models whose parameters all come from planes. The same seed gives the same bytes on every machine.
+/// shininess log-uniform over 0..65536 and its ends, F0 0..1 and its ends, albedo 0..1, coverage 0..1, absorption
+/// 0..0.6 with zeros, tangents at all angles including zero and parallel ones, a few mirror configurations per light so
+/// that highlights of any shininess are hit; lights of all three types; one material of the given shape. The same seed
+/// gives the same bytes on every machine.
+[[nodiscard]] Frame random_frame(int width, int height, const StackShape& shape, std::uint64_t seed);
+
+/// The same for a single layer.
 [[nodiscard]] Frame random_frame(int width, int height, SpecularModel specular, DiffuseModel diffuse,
                                  std::uint64_t seed);
+
+/// A random shape: 1 to 8 layers of any lobes (the base at least with a lobe or a diffuse part), any diffuse, Fresnel
+/// and absorption model, some_constant true or false.
+[[nodiscard]] StackShape random_shape(std::uint64_t seed);
 
 } // namespace clshade

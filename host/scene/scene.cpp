@@ -20,6 +20,26 @@ std::string_view name_of(SpecularModel model) {
         return "blinn_phong";
     case SpecularModel::blinn_phong_exact:
         return "blinn_phong_exact";
+    case SpecularModel::blinn_phong_anisotropic:
+        return "blinn_phong_anisotropic";
+    case SpecularModel::blinn_phong_spectral:
+        return "blinn_phong_spectral";
+    }
+    return {};
+}
+
+std::string_view name_of(FresnelModel model) {
+    return model == FresnelModel::constant ? "constant" : "exact";
+}
+
+std::string_view name_of(AbsorptionModel model) {
+    switch (model) {
+    case AbsorptionModel::approximated:
+        return "approximated";
+    case AbsorptionModel::original:
+        return "original";
+    case AbsorptionModel::none:
+        return "none";
     }
     return {};
 }
@@ -56,6 +76,8 @@ std::string_view name_of(Conversion convert) {
         return "smoothness";
     case Conversion::oren_nayar_sigma:
         return "oren_nayar_sigma";
+    case Conversion::index_of_refraction:
+        return "index_of_refraction";
     }
     return {};
 }

@@ -26,9 +26,10 @@ struct SourceLocation {
 /// What is done to a channel after scale and offset (interface, "Scene file").
 enum class Conversion {
     none,
-    ggx_roughness,    ///< n = 2/r^4 - 2
-    smoothness,       ///< r = 1 - x, then as ggx_roughness
-    oren_nayar_sigma, ///< n = 2/x^2
+    ggx_roughness,       ///< n = 2/r^4 - 2
+    smoothness,          ///< r = 1 - x, then as ggx_roughness
+    oren_nayar_sigma,    ///< n = 2/x^2
+    index_of_refraction, ///< F0 = ((x-1)/(x+1))^2, x taken at least 1; made by the key `ior`, no name in scene files
 };
 
 /// A material parameter: three constants, or the planes of a role or layer.
@@ -57,11 +58,12 @@ struct Parameter {
     }
 };
 
-/// Specular lobes that exist today. The parser also knows the names of those still to come and refuses them.
 enum class SpecularModel {
-    none,              ///< leaves the diffuse part unweighted
-    blinn_phong,       ///< models.md section 2
-    blinn_phong_exact, ///< models.md section 1
+    none,                    ///< no interface: neither reflects nor bends; as a base leaves the diffuse part unweighted
+    blinn_phong,             ///< models.md section 2
+    blinn_phong_exact,       ///< models.md section 1
+    blinn_phong_anisotropic, ///< models.md section 3
+    blinn_phong_spectral,    ///< models.md section 4
 };
 
 enum class DiffuseModel {
@@ -75,30 +77,80 @@ enum class DiffuseModel {
     oren_nayar_shininess,    ///< 8.5
 };
 
+/// How the interfaces of a stack reflect (models.md section 5).
+enum class FresnelModel {
+    constant, ///< Gaussian Schlick where light meets the stack, constants for normal incidence inside
+    exact,    ///< the dielectric formula at the refracted angle, exact normalisers
+};
+
+/// How the media of a stack absorb (models.md section 5).
+enum class AbsorptionModel {
+    approximated, ///< max(0, 1 - a' (1/NL + 1/NE)); `absorption` is a'
+    original,     ///< exp(-alpha d (1/NL' + 1/NE')), refracted; `absorption` is alpha d
+    none,
+};
+
 /// Names as written in a scene file, in the order of the enumerations.
 [[nodiscard]] std::string_view name_of(SpecularModel model);
+[[nodiscard]] std::string_view name_of(FresnelModel model);
+[[nodiscard]] std::string_view name_of(AbsorptionModel model);
 [[nodiscard]] std::string_view name_of(DiffuseModel model);
 [[nodiscard]] std::string_view name_of(Conversion convert);
 
+/// Complex index of refraction n + i k at a wavelength.
+struct ComplexIndex {
+    double wavelength = 0.0; ///< nanometres
+    double n = 1.0;          ///< above 0
+    double k = 0.0;          ///< 0 or more
+};
+
+/// Optical constants for blinn_phong_spectral: piecewise linear between the samples, clamped outside.
+struct Metal {
+    std::string name;                  ///< "gold", "copper" or the file's name as written
+    std::vector<ComplexIndex> samples; ///< at least two, wavelengths rising
+};
+
 struct Specular {
     SpecularModel model = SpecularModel::blinn_phong;
-    Parameter f0 = Parameter::of(0.04);        ///< 0..1 per channel; `ior` in the scene file sets ((n-1)/(n+1))^2
-    Parameter shininess = Parameter::of(64.0); ///< 0..65536
+    Parameter f0 = Parameter::of(0.04); ///< in air, 0..1 per channel; `ior` in the scene file sets ((n-1)/(n+1))^2
+    Parameter shininess = Parameter::of(64.0);   ///< 0..65536
+    Parameter shininess_u = Parameter::of(64.0); ///< anisotropic: along the tangent
+    Parameter shininess_v = Parameter::of(64.0); ///< anisotropic: across it
+    /// Anisotropic: a constant in world space, or three channels in the space and encoding of the normal, any length.
+    /// Absent: the tangent role.
+    std::optional<Parameter> tangent;
+    Metal metal; ///< spectral
 };
 
 struct Diffuse {
     DiffuseModel model = DiffuseModel::lambert;
     Parameter albedo = Parameter::of(0.5); ///< 0..1 per channel
-    std::optional<Parameter> shininess;    ///< absent: the specular shininess of the same layer
+    std::optional<Parameter> shininess;    ///< absent: the specular shininess of the base
 };
 
-/// A material: today a stack of one layer.
+/// One layer of a stack: the lobe of its upper interface, and what its medium takes from light passing through.
+struct Layer {
+    Specular specular;
+    Parameter absorption = Parameter::of(0.0); ///< 0 or more per channel; a constant 0 in the base
+    SourceLocation where;
+};
+
+inline constexpr std::size_t most_layers = 8;
+
+/// A stack of one to eight layers, top first; the last is the base and alone has a diffuse part.
 struct Material {
     std::string name = "default";
-    std::vector<std::int64_t> ids; ///< values of the material_id plane; empty only for `default`
-    Specular specular;
+    std::vector<std::int64_t> ids;  ///< values of the material_id plane
+    std::vector<std::string> names; ///< Cryptomatte names; `default` has neither ids nor names
+    SourceLocation names_where;
+    FresnelModel fresnel = FresnelModel::constant;
+    AbsorptionModel absorption_model = AbsorptionModel::approximated;
+    std::vector<Layer> layers = {Layer{}};
     Diffuse diffuse;
     SourceLocation where;
+
+    [[nodiscard]] Specular& base() { return layers.back().specular; }
+    [[nodiscard]] const Specular& base() const { return layers.back().specular; }
 };
 
 enum class LightType { distant, point, spot };
@@ -152,7 +204,7 @@ struct GBufferSettings {
 /// Parameters of the `default` material (materials[0]) that nobody wrote and that are chosen from the roles the file
 /// has. Where a flag is set, the parameter in materials[0] holds only the last fallback:
 ///   albedo: albedo role, else 0.5.   f0: F0 role, else 0.04.
-///   shininess (of the specular lobe): roughness role by ggx_roughness, else shininess role, else 64.
+///   shininess (of the base's specular lobe): roughness role by ggx_roughness, else shininess role, else 64.
 struct AutomaticParameters {
     bool albedo = false;
     bool f0 = false;
