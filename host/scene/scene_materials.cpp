@@ -129,14 +129,14 @@ AutomaticParameters read_lobes(const TableReader& layer, const std::string& titl
     } else if (!automatic) {
         diffuse_source.diffuse.model = DiffuseModel::none;
     }
-    material.specular = std::move(specular_source.specular);
+    material.base() = std::move(specular_source.specular);
     material.diffuse = std::move(diffuse_source.diffuse);
-    if (material.specular.model == SpecularModel::none && material.diffuse.model == DiffuseModel::none) {
+    if (material.base().model == SpecularModel::none && material.diffuse.model == DiffuseModel::none) {
         fail(layer.where(),
              fmt::format("{} has model 'none' for both lobes and would be black; give one a model", title));
     }
     const bool rough = material.diffuse.model != DiffuseModel::none && material.diffuse.model != DiffuseModel::lambert;
-    const bool has_shininess = material.specular.model != SpecularModel::none || specular_source.shininess_written;
+    const bool has_shininess = material.base().model != SpecularModel::none || specular_source.shininess_written;
     if (rough && !material.diffuse.shininess.has_value() && !has_shininess) {
         fail(diffuse == nullptr ? layer.where() : diffuse->value.where,
              fmt::format("diffuse of {}: {} needs a shininess, and there is no specular lobe to take it from; add "
