@@ -57,10 +57,10 @@ std::string without_view(const std::string& layer, const std::string& view) {
 /// Finds or makes layers by raw name, so that headers with thousands of channels stay cheap.
 class LayerTable {
   public:
-    Layer& at(const std::string& raw_name, const std::string& view, bool plain) {
+    ChannelLayer& at(const std::string& raw_name, const std::string& view, bool plain) {
         const auto [place, added] = index_.try_emplace({raw_name, plain, !view.empty()}, layers_.size());
         if (added) {
-            Layer layer;
+            ChannelLayer layer;
             layer.raw_name = raw_name;
             layer.name = without_view(raw_name, view);
             layer.plain = plain;
@@ -69,11 +69,11 @@ class LayerTable {
         }
         return layers_[place->second];
     }
-    [[nodiscard]] std::vector<Layer> take() { return std::move(layers_); }
+    [[nodiscard]] std::vector<ChannelLayer> take() { return std::move(layers_); }
 
   private:
     std::map<std::tuple<std::string, bool, bool>, std::size_t> index_;
-    std::vector<Layer> layers_;
+    std::vector<ChannelLayer> layers_;
 };
 
 } // namespace
@@ -123,7 +123,7 @@ std::string choose_view(const ImageLayout& layout, const std::string& wanted) {
                                  did_you_mean(wanted, std::span<const std::string>(layout.views))));
 }
 
-std::vector<Layer> visible_layers(const ImageLayout& layout, const std::string& view) {
+std::vector<ChannelLayer> visible_layers(const ImageLayout& layout, const std::string& view) {
     LayerTable table;
     for (std::size_t i = 0; i < layout.channels.size(); ++i) {
         const ChannelInfo& info = layout.channels[i];
@@ -144,17 +144,18 @@ std::vector<Layer> visible_layers(const ImageLayout& layout, const std::string& 
             table.at(info.name, info.view, true).components.push_back({"", channel});
         }
     }
-    std::vector<Layer> layers = table.take();
+    std::vector<ChannelLayer> layers = table.take();
     // X, Y and Z without a layer are a vector, not three planes.
     const auto bare = std::find_if(layers.begin(), layers.end(),
-                                   [](const Layer& layer) { return layer.raw_name.empty() && !layer.plain; });
+                                   [](const ChannelLayer& layer) { return layer.raw_name.empty() && !layer.plain; });
     if (bare != layers.end() && component(*bare, "X") && component(*bare, "Y")) {
-        std::erase_if(layers, [](const Layer& layer) { return layer.plain && equal_without_case(layer.name, "Z"); });
+        std::erase_if(layers,
+                      [](const ChannelLayer& layer) { return layer.plain && equal_without_case(layer.name, "Z"); });
     }
     return layers;
 }
 
-std::optional<int> component(const Layer& layer, std::string_view suffix) {
+std::optional<int> component(const ChannelLayer& layer, std::string_view suffix) {
     for (const LayerComponent& c : layer.components) {
         if (c.suffix == suffix) {
             return c.channel;
@@ -168,7 +169,7 @@ std::optional<int> component(const Layer& layer, std::string_view suffix) {
     return std::nullopt;
 }
 
-std::vector<int> three_components(const Layer& layer, bool colour) {
+std::vector<int> three_components(const ChannelLayer& layer, bool colour) {
     using Triple = std::array<std::string_view, 3>;
     const Triple rgb{"R", "G", "B"};
     const Triple xyz{"X", "Y", "Z"};
@@ -183,7 +184,7 @@ std::vector<int> three_components(const Layer& layer, bool colour) {
     return {};
 }
 
-std::optional<int> single_component(const Layer& layer) {
+std::optional<int> single_component(const ChannelLayer& layer) {
     std::optional<int> only;
     int count = 0;
     for (const LayerComponent& c : layer.components) {
@@ -213,9 +214,9 @@ std::string list_names(const std::vector<std::string>& names, std::size_t most) 
                        names.size() - most);
 }
 
-std::vector<std::string> layer_names(const std::vector<Layer>& layers) {
+std::vector<std::string> layer_names(const std::vector<ChannelLayer>& layers) {
     std::vector<std::string> names;
-    for (const Layer& layer : layers) {
+    for (const ChannelLayer& layer : layers) {
         const bool bare_letter = layer.plain && is_component_suffix(layer.name);
         if (!layer.name.empty() && !bare_letter) {
             names.push_back(layer.name);

@@ -17,7 +17,7 @@ struct LayerComponent {
 };
 
 /// The channels that share everything before the last dot of their names.
-struct Layer {
+struct ChannelLayer {
     std::string name;     ///< without the stereo view; "" for bare channels such as R or Z
     std::string raw_name; ///< as in the file
     bool plain = false;   ///< a single plane whose name carries no component suffix ("pscale", "other.mask")
@@ -41,19 +41,19 @@ struct Layer {
 [[nodiscard]] std::string choose_view(const ImageLayout& layout, const std::string& wanted);
 
 /// Layers of the channels that are visible in `view`: those of that view and those of none.
-[[nodiscard]] std::vector<Layer> visible_layers(const ImageLayout& layout, const std::string& view);
+[[nodiscard]] std::vector<ChannelLayer> visible_layers(const ImageLayout& layout, const std::string& view);
 
 /// Channel of the component with this suffix: exact case first, then any case, then the long names (red for R).
-[[nodiscard]] std::optional<int> component(const Layer& layer, std::string_view suffix);
+[[nodiscard]] std::optional<int> component(const ChannelLayer& layer, std::string_view suffix);
 
 /// Channels of X, Y, Z or of R, G, B; `colour` looks for R, G, B first. Empty if neither set is complete.
-[[nodiscard]] std::vector<int> three_components(const Layer& layer, bool colour);
+[[nodiscard]] std::vector<int> three_components(const ChannelLayer& layer, bool colour);
 
 /// The one channel of a layer that has just one beside alpha. A Z without X and Y counts as such a one.
-[[nodiscard]] std::optional<int> single_component(const Layer& layer);
+[[nodiscard]] std::optional<int> single_component(const ChannelLayer& layer);
 
 /// Layer names for messages: "A, B, C and 12 more".
 [[nodiscard]] std::string list_names(const std::vector<std::string>& names, std::size_t most = 12);
-[[nodiscard]] std::vector<std::string> layer_names(const std::vector<Layer>& layers);
+[[nodiscard]] std::vector<std::string> layer_names(const std::vector<ChannelLayer>& layers);
 
 } // namespace clshade

@@ -17,8 +17,9 @@ namespace {
 using Home = std::optional<std::string>;
 
 /// Index of the visible channel with this full name.
-std::optional<int> exact_channel(const ImageLayout& layout, const std::vector<Layer>& layers, std::string_view name) {
-    for (const Layer& layer : layers) {
+std::optional<int> exact_channel(const ImageLayout& layout, const std::vector<ChannelLayer>& layers,
+                                 std::string_view name) {
+    for (const ChannelLayer& layer : layers) {
         for (const LayerComponent& c : layer.components) {
             if (layout.channels[static_cast<std::size_t>(c.channel)].name == name) {
                 return c.channel;
@@ -29,11 +30,12 @@ std::optional<int> exact_channel(const ImageLayout& layout, const std::vector<La
 }
 
 /// Layers of this name: exact ones, else those that have it behind a view layer.
-std::vector<const Layer*> layers_named(const std::vector<Layer>& layers, std::string_view name, const Home& home) {
-    std::vector<const Layer*> exact;
-    std::vector<const Layer*> relative;
-    std::vector<const Layer*> at_home;
-    for (const Layer& layer : layers) {
+std::vector<const ChannelLayer*> layers_named(const std::vector<ChannelLayer>& layers, std::string_view name,
+                                              const Home& home) {
+    std::vector<const ChannelLayer*> exact;
+    std::vector<const ChannelLayer*> relative;
+    std::vector<const ChannelLayer*> at_home;
+    for (const ChannelLayer& layer : layers) {
         if (layer.name.empty()) {
             continue;
         }
@@ -53,10 +55,10 @@ std::vector<const Layer*> layers_named(const std::vector<Layer>& layers, std::st
 }
 
 /// Channels whose name without a view layer is `name`.
-std::vector<int> relative_channels(const std::vector<Layer>& layers, std::string_view name, const Home& home) {
+std::vector<int> relative_channels(const std::vector<ChannelLayer>& layers, std::string_view name, const Home& home) {
     std::vector<int> all;
     std::vector<int> at_home;
-    for (const Layer& layer : layers) {
+    for (const ChannelLayer& layer : layers) {
         for (const LayerComponent& c : layer.components) {
             const std::string full = c.suffix.empty() ? layer.name : fmt::format("{}.{}", layer.name, c.suffix);
             const auto prefix = prefix_before(full, name, false);
@@ -72,7 +74,7 @@ std::vector<int> relative_channels(const std::vector<Layer>& layers, std::string
     return at_home.empty() ? all : at_home;
 }
 
-std::vector<int> channels_of(const Layer& layer, Shape shape) {
+std::vector<int> channels_of(const ChannelLayer& layer, Shape shape) {
     const auto single = single_component(layer);
     if (shape == Shape::scalar) {
         return single ? std::vector{*single} : std::vector<int>();
@@ -97,7 +99,7 @@ std::string_view wanted_text(Shape shape) {
     return "";
 }
 
-std::vector<std::string> component_names(const ImageLayout& layout, const Layer& layer) {
+std::vector<std::string> component_names(const ImageLayout& layout, const ChannelLayer& layer) {
     std::vector<std::string> names;
     for (const LayerComponent& c : layer.components) {
         names.push_back(layout.channels[static_cast<std::size_t>(c.channel)].name);
@@ -105,8 +107,8 @@ std::vector<std::string> component_names(const ImageLayout& layout, const Layer&
     return names;
 }
 
-[[noreturn]] void throw_unknown(const ImageLayout& layout, const std::vector<Layer>& layers, std::string_view name,
-                                std::string_view what) {
+[[noreturn]] void throw_unknown(const ImageLayout& layout, const std::vector<ChannelLayer>& layers,
+                                std::string_view name, std::string_view what) {
     std::vector<std::string> candidates = layer_names(layers);
     const std::size_t full = candidates.size();
     for (std::size_t i = 0; i < full; ++i) {
@@ -115,7 +117,7 @@ std::vector<std::string> component_names(const ImageLayout& layout, const Layer&
             candidates.push_back(candidates[i].substr(dot + 1));
         }
     }
-    for (const Layer& layer : layers) {
+    for (const ChannelLayer& layer : layers) {
         const std::vector<std::string> names = component_names(layout, layer);
         candidates.insert(candidates.end(), names.begin(), names.end());
     }
@@ -127,15 +129,15 @@ std::vector<std::string> component_names(const ImageLayout& layout, const Layer&
     throw UsageError(fmt::format("{}: {} has no layer or channel '{}'{}", what, layout.file, name, hint));
 }
 
-NamedChannels find_one(const ImageLayout& layout, const std::vector<Layer>& layers, const std::string& name,
+NamedChannels find_one(const ImageLayout& layout, const std::vector<ChannelLayer>& layers, const std::string& name,
                        Shape shape, const Home& home, std::string_view what) {
     const auto exact = exact_channel(layout, layers, name);
     if (exact && shape != Shape::vector) {
         return {{*exact}, name};
     }
-    const Layer* misfit = nullptr;
+    const ChannelLayer* misfit = nullptr;
     std::vector<NamedChannels> fits;
-    for (const Layer* layer : layers_named(layers, name, home)) {
+    for (const ChannelLayer* layer : layers_named(layers, name, home)) {
         std::vector<int> channels = channels_of(*layer, shape);
         if (channels.empty()) {
             misfit = layer;
@@ -179,8 +181,8 @@ std::string located(const SourceLocation& where, std::string_view what) {
                           : fmt::format("{}: {}", where.file, what);
 }
 
-Home home_of(const std::vector<Layer>& layers, const std::vector<int>& channels) {
-    for (const Layer& layer : layers) {
+Home home_of(const std::vector<ChannelLayer>& layers, const std::vector<int>& channels) {
+    for (const ChannelLayer& layer : layers) {
         for (const LayerComponent& c : layer.components) {
             if (!channels.empty() && c.channel == channels.front()) {
                 const std::size_t dot = layer.name.rfind('.');
@@ -191,7 +193,7 @@ Home home_of(const std::vector<Layer>& layers, const std::vector<int>& channels)
     return std::nullopt;
 }
 
-NamedChannels find_named(const ImageLayout& layout, const std::vector<Layer>& layers,
+NamedChannels find_named(const ImageLayout& layout, const std::vector<ChannelLayer>& layers,
                          const std::vector<std::string>& names, Shape shape, const std::optional<std::string>& home,
                          std::string_view what) {
     if (names.size() == 1) {
@@ -209,10 +211,11 @@ NamedChannels find_named(const ImageLayout& layout, const std::vector<Layer>& la
     return result;
 }
 
-std::vector<int> find_kept(const ImageLayout& layout, const std::vector<Layer>& layers, const std::string& name) {
+std::vector<int> find_kept(const ImageLayout& layout, const std::vector<ChannelLayer>& layers,
+                           const std::string& name) {
     std::vector<int> channels;
-    const std::vector<const Layer*> named = layers_named(layers, name, std::nullopt);
-    for (const Layer* layer : named) {
+    const std::vector<const ChannelLayer*> named = layers_named(layers, name, std::nullopt);
+    for (const ChannelLayer* layer : named) {
         for (const LayerComponent& c : layer->components) {
             channels.push_back(c.channel);
         }
@@ -232,7 +235,7 @@ std::vector<int> find_channels(const ImageLayout& layout, const RoleAssignment& 
     if (parameter.channels.empty()) {
         throw UsageError(fmt::format("{}: names no channel", place));
     }
-    const std::vector<Layer> layers = visible_layers(layout, roles.view);
+    const std::vector<ChannelLayer> layers = visible_layers(layout, roles.view);
     const Home home = home_of(layers, roles[Role::normal].channels);
     if (parameter.channels.size() == 1) {
         if (const auto role = role_from_name(parameter.channels.front())) {

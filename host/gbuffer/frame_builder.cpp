@@ -193,7 +193,7 @@ FramePlan plan_frame(const ImageLayout& layout, const RoleAssignment& roles, con
         frame.emission = bind_role(table, roles[Role::emission]);
     }
     if (!keep.empty()) {
-        const std::vector<Layer> layers = visible_layers(layout, roles.view);
+        const std::vector<ChannelLayer> layers = visible_layers(layout, roles.view);
         for (const std::string& name : keep) {
             for (const int channel : find_kept(layout, layers, name)) {
                 const PlaneIndex plane = table.add(channel);

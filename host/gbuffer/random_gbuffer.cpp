@@ -1,6 +1,9 @@
 #include "host/gbuffer/random_gbuffer.h"
 
+#include "host/base/error.h"
 #include "host/base/rounding.h"
+#include "host/gbuffer/random_materials.h"
+#include "host/gbuffer/random_numbers.h"
 
 #include <fmt/format.h>
 
@@ -16,45 +19,6 @@
 namespace clshade {
 
 namespace {
-
-/// splitmix64 (Steele, Lea, Flood 2014).
-class Generator {
-  public:
-    explicit Generator(std::uint64_t seed) : state_(seed) {}
-
-    std::uint64_t next() {
-        state_ += 0x9e3779b97f4a7c15U;
-        std::uint64_t z = state_;
-        z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-        z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-        return z ^ (z >> 31U);
-    }
-    /// 0 <= x < 1, multiples of 2^-53.
-    double unit() { return static_cast<double>(next() >> 11U) * 0x1p-53; }
-    double between(double low, double high) { return low + (high - low) * unit(); }
-    int below(int count) { return static_cast<int>(next() % static_cast<std::uint64_t>(count)); }
-    glm::dvec3 in_unit_ball() {
-        for (;;) {
-            const double x = between(-1.0, 1.0);
-            const double y = between(-1.0, 1.0);
-            const double z = between(-1.0, 1.0);
-            if (x * x + y * y + z * z <= 1.0) {
-                return {x, y, z};
-            }
-        }
-    }
-    glm::dvec3 direction() {
-        for (;;) {
-            const glm::dvec3 v = in_unit_ball();
-            if (glm::dot(v, v) > 1e-4) {
-                return glm::normalize(v);
-            }
-        }
-    }
-
-  private:
-    std::uint64_t state_;
-};
 
 glm::dvec3 rounded(const glm::dvec3& v) {
     return {rounded_to_float(v.x), rounded_to_float(v.y), rounded_to_float(v.z)};
@@ -117,133 +81,17 @@ glm::dvec3 to_light(const Light& light, const glm::dvec3& position) {
                                             : glm::normalize(light.position - position);
 }
 
-/// 0 and 65536 each in one pixel of 16; else log-uniform (uniform within each octave) from 2^-4 to 2^16.
-double random_shininess(Generator& random) {
-    const int end = random.below(16);
-    const int octave = random.below(20);
-    double n = (1.0 + random.unit()) / 16.0;
-    for (int i = 0; i < octave; ++i) {
-        n *= 2.0;
-    }
-    if (end == 0) {
-        return 0.0;
-    }
-    return end == 1 ? 65536.0 : n;
-}
-
-/// 0 and 1 each in one pixel of 10, equal components in three, else anything in 0..1.
-glm::dvec3 random_colour(Generator& random) {
-    const int kind = random.below(10);
-    const glm::dvec3 colour{random.unit(), random.unit(), random.unit()}; // braces: evaluated in this order
-    if (kind < 2) {
-        return glm::dvec3(kind);
-    }
-    return kind < 5 ? glm::dvec3(colour.x) : colour;
-}
-
-/// 0 in one pixel of 20, partial in five, else 1.
-double random_coverage(Generator& random) {
-    const int kind = random.below(20);
-    const double partial = random.between(1.0 / 256.0, 1.0);
-    if (kind == 0) {
-        return 0.0;
-    }
-    return kind < 6 ? rounded_to_float(partial) : 1.0;
-}
-
-/// A vector at right angles to `axis`, pushed towards it by up to `reach` either way.
-glm::dvec3 grazing(Generator& random, const glm::dvec3& axis, double reach) {
-    const glm::dvec3 any = random.direction();
-    const double push = random.between(-reach, reach);
-    return any - glm::dot(any, axis) * axis + push * axis;
-}
-
-/// The normal that mirrors E into L, off by a few widths 1/sqrt(n) of the lobe.
-glm::dvec3 near_mirror(Generator& random, const glm::dvec3& eye, const glm::dvec3& light, double n) {
-    const double spread = random.between(0.0, 3.0) / std::sqrt(n + 1.0);
-    const glm::dvec3 aside = random.in_unit_ball();
-    const glm::dvec3 half = eye + light;
-    if (glm::dot(half, half) < 1e-4) {
-        return eye + spread * aside;
-    }
-    return glm::normalize(half) + spread * aside;
-}
-
-glm::dvec3 random_normal(Generator& random, const glm::dvec3& eye, const glm::dvec3& light, double n) {
-    const int kind = random.below(50);
-    if (kind == 0) {
-        return glm::dvec3(0.0);
-    }
-    if (kind < 6) {
-        return grazing(random, eye, kind < 4 ? 0.1 : 0.001);
-    }
-    if (kind < 12) {
-        return grazing(random, light, kind < 10 ? 0.1 : 0.001);
-    }
-    if (kind < 32) {
-        return near_mirror(random, eye, light, n);
-    }
-    const glm::dvec3 any = random.direction();
-    const bool back_facing = kind < 36;
-    return (glm::dot(any, eye) < 0.0) == back_facing ? any : -any;
-}
-
-/// Adds planes to a frame under construction.
-class PlaneNames {
-  public:
-    explicit PlaneNames(std::vector<std::string>& names) : names_(&names) {}
-    PlaneIndex one(const std::string& name) {
-        names_->push_back(name);
-        return static_cast<PlaneIndex>(names_->size()) - 1;
-    }
-    std::array<PlaneIndex, 3> three(const std::string& layer, const char* suffixes) {
-        std::array<PlaneIndex, 3> planes{};
-        for (std::size_t i = 0; i < planes.size(); ++i) {
-            planes[i] = one(layer + "." + suffixes[i]);
-        }
-        return planes;
-    }
-
-  private:
-    std::vector<std::string>* names_;
-};
-
-BoundParameter bound_to(const std::array<PlaneIndex, 3>& planes) {
-    BoundParameter parameter;
-    parameter.planes = planes;
-    return parameter;
-}
-
-BoundParameter bound_to(PlaneIndex plane) {
-    return bound_to(std::array<PlaneIndex, 3>{plane, plane, plane});
-}
-
-void name_planes(Frame& frame, SpecularModel specular, DiffuseModel diffuse) {
+/// Names planes and draws what is the same for all pixels.
+void make_material(Frame& frame, const StackShape& shape, RandomGenerator& random) {
     PlaneNames names(frame.plane_names);
     frame.roles.normal = names.three("Normal", "XYZ");
     frame.roles.position = names.three("Position", "XYZ");
     frame.roles.coverage = names.one("Coverage");
-    BoundMaterial material;
-    material.name = "default";
-    material.specular = specular;
-    material.diffuse = diffuse;
-    if (diffuse != DiffuseModel::none) {
-        material.albedo = bound_to(names.three("Albedo", "RGB"));
-    }
-    if (specular != SpecularModel::none) {
-        material.f0 = bound_to(names.three("F0", "RGB"));
-        material.shininess = bound_to(names.one("Shininess"));
-    }
-    if (diffuse != DiffuseModel::none && diffuse != DiffuseModel::lambert) {
-        material.diffuse_shininess = bound_to(names.one("DiffuseShininess"));
-    }
-    frame.materials = {std::move(material)};
+    frame.materials = {random_material(shape, random, names)};
 }
 
 void put(Frame& frame, PlaneIndex plane, int x, int y, double value) {
-    if (plane != no_plane) {
-        frame.planes.at(plane, x, y) = static_cast<float>(value);
-    }
+    frame.planes.at(plane, x, y) = static_cast<float>(value);
 }
 
 void put(Frame& frame, const std::array<PlaneIndex, 3>& planes, int x, int y, const glm::dvec3& value) {
@@ -252,53 +100,147 @@ void put(Frame& frame, const std::array<PlaneIndex, 3>& planes, int x, int y, co
     }
 }
 
-void fill_pixel(Frame& frame, Generator& random, int x, int y) {
+void put(Frame& frame, const BoundParameter& parameter, int x, int y, const glm::dvec3& value) {
+    if (!parameter.is_constant()) {
+        put(frame, parameter.planes, x, y, value_of(parameter, value));
+    }
+}
+
+using StackValues = std::array<LayerValues, most_layers>;
+
+/// Shininess of one of the lobes, by chance: the one whose highlight a pixel may show.
+double highlight_shininess(const BoundMaterial& material, const StackValues& values, RandomGenerator& random) {
+    std::array<std::size_t, most_layers> lobes{};
+    int count = 0;
+    for (std::size_t k = 0; k < material.layers.size(); ++k) {
+        if (material.layers[k].specular != SpecularModel::none) {
+            lobes[static_cast<std::size_t>(count++)] = k;
+        }
+    }
+    if (count == 0) {
+        return values[material.layers.size() - 1].shininess;
+    }
+    const std::size_t k = lobes[static_cast<std::size_t>(random.below(count))];
+    return lobe_shininess(material.layers[k], values[k], random);
+}
+
+/// Is the normal well away from every constant tangent (zero ones aside)? Planes are drawn so that they are.
+bool suits_constant_tangents(const BoundMaterial& material, const glm::dvec3& normal) {
+    return std::all_of(material.layers.begin(), material.layers.end(), [&](const BoundLayer& layer) {
+        return !layer.tangent.is_constant() || is_sound_tangent(layer.tangent.constant, normal);
+    });
+}
+
+void put_layer(Frame& frame, const BoundLayer& layer, const LayerValues& values, int x, int y, double coverage) {
+    put(frame, layer.f0, x, y, values.f0 * coverage);
+    put(frame, layer.absorption, x, y, values.absorption * coverage);
+    put(frame, layer.shininess, x, y, glm::dvec3(values.shininess * coverage));
+    put(frame, layer.shininess_u, x, y, glm::dvec3(values.shininess_u * coverage));
+    put(frame, layer.shininess_v, x, y, glm::dvec3(values.shininess_v * coverage));
+}
+
+/// `random` alone decides a single isotropic layer, which so is what it was before there were stacks; `coats` decides
+/// all that came with them.
+void fill_pixel(Frame& frame, const StackShape& shape, RandomGenerator& random, RandomGenerator& coats, int x, int y) {
     const View& view = frame.view;
+    const BoundMaterial& material = frame.materials.front();
     const glm::dvec3 ray = view.direction + (x + 0.5) * view.direction_dx + (y + 0.5) * view.direction_dy;
     glm::dvec3 position = rounded(view.origin + random.between(1.5, 9.5) * ray);
     while (near_a_light(frame.lights, position)) {
         position = rounded(view.origin + random.between(1.5, 9.5) * ray);
     }
-    const double n = random_shininess(random);
-    const double diffuse_n = random_shininess(random);
-    const glm::dvec3 f0 = random_colour(random);
+    StackValues values;
+    for (std::size_t k = 0; k < material.layers.size(); ++k) {
+        values[k] = random_coat(coats, shape.largest_shininess);
+    }
+    LayerValues& base = values[material.layers.size() - 1];
+    base.shininess = random_shininess(random, shape.largest_shininess);
+    const double diffuse_n = random_shininess(random, shape.largest_shininess);
+    base.f0 = random_colour(random);
     const glm::dvec3 albedo = random_colour(random);
     const double coverage = random_coverage(random);
     const Light& light = frame.lights[static_cast<std::size_t>(random.below(static_cast<int>(frame.lights.size())))];
     const double length = random.below(10) == 0 ? random.between(0.5, 2.0) : 1.0;
     const glm::dvec3 eye = glm::normalize(view.eye - position);
-    const glm::dvec3 normal = random_normal(random, eye, to_light(light, position), n);
+    const double n = highlight_shininess(material, values, coats);
+    glm::dvec3 normal = random_normal(random, eye, to_light(light, position), n);
+    while (!suits_constant_tangents(material, normal)) {
+        normal = random_normal(random, eye, to_light(light, position), n);
+    }
 
-    const BoundMaterial& material = frame.materials.front();
     const double normal2 = glm::dot(normal, normal);
     put(frame, frame.roles.normal, x, y, normal2 > 0.0 ? length / std::sqrt(normal2) * normal : normal);
     put(frame, frame.roles.position, x, y, position);
     put(frame, frame.roles.coverage, x, y, coverage);
     // Parameters are premultiplied, as filtered render passes are.
-    put(frame, material.albedo.planes, x, y, albedo * coverage);
-    put(frame, material.f0.planes, x, y, f0 * coverage);
-    put(frame, material.shininess.planes[0], x, y, n * coverage);
-    put(frame, material.diffuse_shininess.planes[0], x, y, diffuse_n * coverage);
+    put(frame, material.albedo, x, y, albedo * coverage);
+    put(frame, material.diffuse_shininess, x, y, glm::dvec3(diffuse_n * coverage));
+    for (std::size_t k = 0; k < material.layers.size(); ++k) {
+        put_layer(frame, material.layers[k], values[k], x, y, coverage);
+        put(frame, material.layers[k].tangent, x, y, random_tangent(coats, normal) * coverage);
+    }
 }
 
 } // namespace
 
-Frame random_frame(int width, int height, SpecularModel specular, DiffuseModel diffuse, std::uint64_t seed) {
+Frame random_frame(int width, int height, const StackShape& shape, std::uint64_t seed) {
+    if (shape.layers.empty() || shape.layers.size() > most_layers) {
+        throw UsageError(fmt::format("a random stack has 1 to {} layers, not {}", most_layers, shape.layers.size()));
+    }
     Frame frame;
     frame.file = fmt::format("random G-buffer (seed {})", seed);
     frame.data_window = {0, 0, width - 1, height - 1};
     frame.display_window = frame.data_window;
     frame.view = random_frame_view(width, height);
     frame.lights = random_frame_lights(frame.view);
-    name_planes(frame, specular, diffuse);
+    RandomGenerator random(seed);
+    RandomGenerator coats(seed ^ 0x6c61796572656421U); // any other sequence
+    make_material(frame, shape, coats);
     frame.planes = PlaneSlab(width, height, static_cast<int>(frame.plane_names.size()));
-    Generator random(seed);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            fill_pixel(frame, random, x, y);
+            fill_pixel(frame, shape, random, coats, x, y);
         }
     }
     return frame;
+}
+
+Frame random_frame(int width, int height, SpecularModel specular, DiffuseModel diffuse, std::uint64_t seed) {
+    StackShape shape;
+    shape.layers = {specular};
+    shape.diffuse = diffuse;
+    return random_frame(width, height, shape, seed);
+}
+
+StackShape random_shape(std::uint64_t seed) {
+    constexpr std::array lobes{SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact,
+                               SpecularModel::blinn_phong_anisotropic, SpecularModel::blinn_phong_spectral};
+    constexpr std::array diffuses{DiffuseModel::none,
+                                  DiffuseModel::lambert,
+                                  DiffuseModel::oren_nayar,
+                                  DiffuseModel::oren_nayar_full,
+                                  DiffuseModel::oren_nayar_qualitative,
+                                  DiffuseModel::oren_nayar_simplified_1,
+                                  DiffuseModel::oren_nayar_simplified_2,
+                                  DiffuseModel::oren_nayar_shininess};
+    constexpr std::array absorptions{AbsorptionModel::approximated, AbsorptionModel::original, AbsorptionModel::none};
+    RandomGenerator random(seed);
+    const auto one_of = [&](const auto& choices) {
+        return choices[static_cast<std::size_t>(random.below(static_cast<int>(choices.size())))];
+    };
+    StackShape shape;
+    shape.layers.resize(1 + static_cast<std::size_t>(random.below(static_cast<int>(most_layers))));
+    for (SpecularModel& lobe : shape.layers) {
+        lobe = one_of(lobes);
+    }
+    shape.diffuse = one_of(diffuses);
+    shape.fresnel = random.below(2) == 0 ? FresnelModel::constant : FresnelModel::exact;
+    shape.absorption = one_of(absorptions);
+    shape.some_constant = random.below(2) == 0;
+    while (shape.layers.back() == SpecularModel::none && shape.diffuse == DiffuseModel::none) {
+        shape.layers.back() = one_of(lobes);
+    }
+    return shape;
 }
 
 } // namespace clshade

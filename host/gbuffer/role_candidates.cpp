@@ -16,7 +16,7 @@ bool is_colour(Role role) {
 }
 
 /// The view layer before a rule's name in a layer's name; empty optional if the rule does not fit the name.
-std::optional<std::string> match_name(const RoleRule& rule, const Layer& layer) {
+std::optional<std::string> match_name(const RoleRule& rule, const ChannelLayer& layer) {
     switch (rule.match) {
     case Match::whole: {
         const auto prefix = prefix_before(layer.name, rule.layer, rule.any_case);
@@ -51,7 +51,7 @@ std::optional<std::string> match_name(const RoleRule& rule, const Layer& layer) 
 
 /// Takes the channels a rule needs out of a layer; leaves candidate.channels empty if the shape does not fit.
 /// Returns the shape's rank: 0 as it should be, 1 a substitute.
-int take_channels(const RoleRule& rule, const Layer& layer, Candidate& candidate) {
+int take_channels(const RoleRule& rule, const ChannelLayer& layer, Candidate& candidate) {
     if (!rule.component.empty()) {
         if (const auto channel = component(layer, rule.component)) {
             candidate.channels = {*channel};
@@ -82,21 +82,22 @@ int take_channels(const RoleRule& rule, const Layer& layer, Candidate& candidate
     return 1;
 }
 
-bool has_layer(const std::vector<Layer>& layers, std::string_view tail, bool any_case) {
-    return std::any_of(layers.begin(), layers.end(),
-                       [&](const Layer& layer) { return prefix_before(layer.name, tail, any_case).has_value(); });
+bool has_layer(const std::vector<ChannelLayer>& layers, std::string_view tail, bool any_case) {
+    return std::any_of(layers.begin(), layers.end(), [&](const ChannelLayer& layer) {
+        return prefix_before(layer.name, tail, any_case).has_value();
+    });
 }
 
 } // namespace
 
-std::vector<Candidate> candidates_for(Role role, const std::vector<Layer>& layers,
+std::vector<Candidate> candidates_for(Role role, const std::vector<ChannelLayer>& layers,
                                       const std::optional<std::string>& home) {
     std::vector<Candidate> all;
     for (const RoleRule& rule : role_rules()) {
         if (rule.role != role) {
             continue;
         }
-        for (const Layer& layer : layers) {
+        for (const ChannelLayer& layer : layers) {
             const auto prefix = match_name(rule, layer);
             if (!prefix) {
                 continue;
@@ -133,7 +134,7 @@ std::vector<Candidate> candidates_for(Role role, const std::vector<Layer>& layer
     return each_once;
 }
 
-std::string why_empty(Role role, const std::vector<Layer>& layers) {
+std::string why_empty(Role role, const std::vector<ChannelLayer>& layers) {
     switch (role) {
     case Role::normal:
         if (has_layer(layers, "normals", false) || has_layer(layers, "VRayBumpNormals", false)) {
@@ -174,10 +175,10 @@ std::string why_empty(Role role, const std::vector<Layer>& layers) {
     return "no layer has a known name";
 }
 
-std::vector<std::string> near_misses(Role role, const std::vector<Layer>& layers) {
+std::vector<std::string> near_misses(Role role, const std::vector<ChannelLayer>& layers) {
     std::vector<std::string> names;
     if (role == Role::roughness) {
-        for (const Layer& layer : layers) {
+        for (const ChannelLayer& layer : layers) {
             for (const std::string_view name : {"Smoothness", "VRayMtlReflectGlossiness"}) {
                 if (prefix_before(layer.name, name, true)) {
                     names.push_back(layer.name);

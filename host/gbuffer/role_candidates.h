@@ -26,20 +26,20 @@ struct Candidate {
 
 /// Candidates for a role, best first, each layer once. `home` is the view layer of the normal, if one was found: layers
 /// of other view layers come last.
-[[nodiscard]] std::vector<Candidate> candidates_for(Role role, const std::vector<Layer>& layers,
+[[nodiscard]] std::vector<Candidate> candidates_for(Role role, const std::vector<ChannelLayer>& layers,
                                                     const std::optional<std::string>& home);
 
 /// Why no layer fits: names that look like the role and are not taken on purpose (GlossCol is not F0, ...).
-[[nodiscard]] std::string why_empty(Role role, const std::vector<Layer>& layers);
+[[nodiscard]] std::string why_empty(Role role, const std::vector<ChannelLayer>& layers);
 
 /// Layers that would fit after a conversion or a change of space; told as runners-up.
-[[nodiscard]] std::vector<std::string> near_misses(Role role, const std::vector<Layer>& layers);
+[[nodiscard]] std::vector<std::string> near_misses(Role role, const std::vector<ChannelLayer>& layers);
 
 /// Warnings about the layers chosen: half-float positions and ids, DWA compression, handedness, colour space, ...
 /// `used` holds the candidate behind every automatic choice, else null.
 [[nodiscard]] std::vector<std::string> role_warnings(const ImageLayout& layout, const GBufferSettings& settings,
                                                      const RoleAssignment& roles,
                                                      const std::array<const RoleRule*, role_count>& used,
-                                                     const std::vector<Layer>& layers);
+                                                     const std::vector<ChannelLayer>& layers);
 
 } // namespace clshade

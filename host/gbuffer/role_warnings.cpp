@@ -143,7 +143,7 @@ bool has_override(const GBufferSettings& settings, Role role) {
 
 std::vector<std::string> role_warnings(const ImageLayout& layout, const GBufferSettings& settings,
                                        const RoleAssignment& roles, const std::array<const RoleRule*, role_count>& used,
-                                       const std::vector<Layer>& layers) {
+                                       const std::vector<ChannelLayer>& layers) {
     std::vector<std::string> warnings;
     for (std::size_t i = 0; i < role_count; ++i) {
         const RoleChoice& choice = roles.choices[i];

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, role_count> role_names{"normal",  "positi
 /// Where the normal lives: the other planes should come from the same view layer.
 using Home = std::optional<std::string>;
 
-RoleChoice choose(Role role, const std::vector<Layer>& layers, const Home& home, const RoleRule*& used) {
+RoleChoice choose(Role role, const std::vector<ChannelLayer>& layers, const Home& home, const RoleRule*& used) {
     RoleChoice choice;
     choice.role = role;
     const std::vector<Candidate> candidates = candidates_for(role, layers, home);
@@ -61,7 +61,7 @@ std::string place(const RoleOverride& entry) {
 }
 
 RoleChoice choose_by_override(Role role, const RoleOverride& entry, const ImageLayout& layout,
-                              const std::vector<Layer>& layers, const Home& home) {
+                              const std::vector<ChannelLayer>& layers, const Home& home) {
     RoleChoice choice;
     choice.role = role;
     choice.rule = entry.where.file.empty() ? "[gbuffer]" : fmt::format("[gbuffer] in {}", entry.where.file);
@@ -147,7 +147,7 @@ RoleAssignment assign_roles(const ImageLayout& layout, const GBufferSettings& se
         roles.warnings.push_back(fmt::format("the file has {} views ({}); '{}' is used, choose another with --view",
                                              layout.views.size(), list_names(layout.views), roles.view));
     }
-    const std::vector<Layer> layers = visible_layers(layout, roles.view);
+    const std::vector<ChannelLayer> layers = visible_layers(layout, roles.view);
     std::array<const RoleRule*, role_count> used{};
     Home home;
     // The normal comes first in the enumeration: its view layer decides between equals of the other roles.
