@@ -19,6 +19,7 @@ Angles angles_between(const glm::dvec3& normal, const glm::dvec3& eye, const glm
     const glm::dvec3 half = sum / m;
     const glm::dvec3 cross = glm::cross(normal, half);
     a.eh = std::min(length2 / (2.0 * m), 1.0);
+    a.half = half;
     a.nh = std::min(std::max(glm::dot(normal, sum), 1e-12) / m, 1.0);
     // Below the guard H is shorter than 1, and |N x H|^2 no longer what N.H leaves of 1.
     a.sin2_nh = length2 < 1e-12 ? 1.0 - a.nh * a.nh : std::min(glm::dot(cross, cross), 1.0);

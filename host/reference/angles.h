@@ -13,6 +13,7 @@ struct Angles {
     double eh = 0.0;      ///< E.H, 0..1
     double nh = 0.0;      ///< N.H, above 0
     double sin2_nh = 1.0; ///< |N x H|^2 = 1 - (N.H)^2 without its cancellation; means nothing where nh was raised
+    glm::dvec3 half{0.0}; ///< H; shorter than 1 where L and E nearly cancel
     double gamma = 0.0;   ///< E.L - N.E N.L: dot product of the tangential parts of L and E
 };
 

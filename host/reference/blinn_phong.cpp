@@ -8,13 +8,6 @@
 
 namespace clshade::reference {
 
-namespace {
-/// N.L / max(N.L, N.E): the cosine of f_cos and the attenuation of sections 1 and 2 in one bounded factor.
-double attenuated_cosine(const Angles& a) {
-    return a.nl / std::max(a.nl, a.ne);
-}
-} // namespace
-
 double normaliser_exact(double n) {
     // models.md section 1: (n + 2) / (4 pi (2 - 2^(-n/2)))
     return (n + 2.0) / (4.0 * std::numbers::pi * (2.0 - std::exp2(-0.5 * n)));
@@ -36,6 +29,10 @@ double lobe(const Angles& angles, double n) {
     // models.md section 14 has log N.H = 1/2 log1p(-|N x H|^2). Near N.H = 0 it is 1 - |N x H|^2 that cancels.
     const double log_nh = angles.nh > 0.5 ? 0.5 * std::log1p(-angles.sin2_nh) : std::log(angles.nh);
     return std::exp(n * log_nh);
+}
+
+double attenuated_cosine(const Angles& angles) {
+    return angles.nl / std::max(angles.nl, angles.ne);
 }
 
 glm::dvec3 blinn_phong_exact(const Angles& angles, const glm::dvec3& f0, double n) {

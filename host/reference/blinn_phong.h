@@ -17,6 +17,9 @@ namespace clshade::reference {
 /// (N.H)^n, good to about 1e-12 relative for n up to 65536; 1 for n = 0 whatever N.H is (section 0, rule 4).
 [[nodiscard]] double lobe(const Angles& angles, double n);
 
+/// N.L / max(N.L, N.E): the cosine of f_cos and the attenuation of sections 1 to 3 in one bounded factor.
+[[nodiscard]] double attenuated_cosine(const Angles& angles);
+
 /// Specular f_cos of the exact form (section 1). Needs N.L > 0.
 [[nodiscard]] glm::dvec3 blinn_phong_exact(const Angles& angles, const glm::dvec3& f0, double n);
 /// Specular f_cos of the approximated form (section 2). Needs N.L > 0.

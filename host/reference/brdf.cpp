@@ -1,7 +1,7 @@
 #include "host/reference/brdf.h"
 
-#include "host/reference/blinn_phong.h"
 #include "host/reference/diffuse.h"
+#include "host/reference/layers.h"
 
 namespace clshade::reference {
 
@@ -40,19 +40,9 @@ Reflected reflect(const MaterialValues& material, const Angles& angles) {
     if (!(angles.nl > 0.0)) {
         return r;
     }
-    r.diffuse = diffuse_part(material, angles);
-    switch (material.specular) {
-    case SpecularModel::none:
-        break;
-    case SpecularModel::blinn_phong:
-        r.diffuse *= diffuse_weight(material.f0);
-        r.specular = blinn_phong(angles, material.f0, material.shininess);
-        break;
-    case SpecularModel::blinn_phong_exact:
-        r.diffuse *= diffuse_weight_exact(angles, material.f0);
-        r.specular = blinn_phong_exact(angles, material.f0, material.shininess);
-        break;
-    }
+    const StackWeights weights = stack_weights(material, angles);
+    r.diffuse = diffuse_part(material, angles) * weights.diffuse;
+    r.specular = weights.specular;
     return r;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/reference/angles.h"
-#include "host/reference/surface.h"
+#include "host/reference/material_values.h"
 
 #include <glm/glm.hpp>
 

@@ -19,10 +19,33 @@ void add_vector(Description& description, const std::string& name, const glm::dv
     }
 }
 
+void add_layer(Description& description, const LayerValues& layer, const std::string& name, bool absorbs) {
+    switch (layer.specular) {
+    case SpecularModel::none:
+        break;
+    case SpecularModel::blinn_phong:
+    case SpecularModel::blinn_phong_exact:
+    case SpecularModel::blinn_phong_spectral:
+        add_vector(description, name + ".f0", layer.f0, "RGB");
+        description.emplace_back(name + ".shininess", layer.shininess);
+        break;
+    case SpecularModel::blinn_phong_anisotropic:
+        add_vector(description, name + ".f0", layer.f0, "RGB");
+        description.emplace_back(name + ".shininess_u", layer.shininess_u);
+        description.emplace_back(name + ".shininess_v", layer.shininess_v);
+        add_vector(description, name + ".T", layer.frame.tangent, "XYZ");
+        break;
+    }
+    if (absorbs) {
+        add_vector(description, name + ".absorption", layer.absorption, "RGB");
+    }
+}
+
 void add_material(Description& description, const MaterialValues& material) {
-    if (material.specular != SpecularModel::none) {
-        add_vector(description, "f0", material.f0, "RGB");
-        description.emplace_back("shininess", material.shininess);
+    const auto layers = material.layers();
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        const bool absorbs = material.absorption != AbsorptionModel::none && k + 1 < layers.size();
+        add_layer(description, layers[k], fmt::format("layer{}", k + 1), absorbs);
     }
     if (material.diffuse != DiffuseModel::none) {
         add_vector(description, "albedo", material.albedo, "RGB");
@@ -45,7 +68,8 @@ void add_light(Description& description, const Light& light, const Surface& surf
 } // namespace
 
 std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, int x, int y) {
-    if (!all_finite(frame, planes_to_be_finite(frame), x, y)) {
+    const PreparedFrame prepared(frame);
+    if (!all_finite(prepared, x, y)) {
         return {{"nonfinite", 1.0}};
     }
     const std::optional<Surface> surface = read_surface(frame, x, y);
@@ -59,7 +83,7 @@ std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, i
         add_vector(description, "position", *surface->position, "XYZ");
     }
     description.emplace_back("material", surface->material);
-    add_material(description, read_material(frame, *surface, x, y));
+    add_material(description, read_material(prepared, *surface, x, y));
     for (const Light& light : frame.lights) {
         add_light(description, light, *surface);
     }

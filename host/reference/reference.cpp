@@ -27,9 +27,10 @@ Pixel unusable_pixel(const AovSelection& aovs, std::size_t lights) {
     return pixel;
 }
 
-Pixel shade_with(const Frame& frame, const std::vector<PlaneIndex>& planes, int x, int y, const AovSelection& aovs) {
+Pixel shade_with(const PreparedFrame& prepared, int x, int y, const AovSelection& aovs) {
+    const Frame& frame = prepared.frame();
     Pixel pixel = unusable_pixel(aovs, frame.lights.size());
-    if (!all_finite(frame, planes, x, y)) {
+    if (!all_finite(prepared, x, y)) {
         pixel.nonfinite = true;
         return pixel;
     }
@@ -37,7 +38,7 @@ Pixel shade_with(const Frame& frame, const std::vector<PlaneIndex>& planes, int 
     if (!surface) {
         return pixel;
     }
-    const MaterialValues material = read_material(frame, *surface, x, y);
+    const MaterialValues material = read_material(prepared, *surface, x, y);
     for (std::size_t i = 0; i < frame.lights.size(); ++i) {
         const Incident light = incident_light(frame.lights[i], surface->position);
         const Angles angles = angles_between(surface->normal, surface->eye, light.direction);
@@ -59,6 +60,7 @@ Pixel shade_with(const Frame& frame, const std::vector<PlaneIndex>& planes, int 
     pixel.material = surface->material;
     pixel.clamped = material.clamped;
     pixel.fractional_id = surface->fractional_id;
+    pixel.no_tangent = material.no_tangent;
     return pixel;
 }
 
@@ -87,6 +89,7 @@ void count(const Pixel& pixel, PixelCounts& counts) {
     counts.nonfinite += pixel.nonfinite ? 1U : 0U;
     counts.clamped += pixel.clamped ? 1U : 0U;
     counts.fractional_ids += pixel.fractional_id ? 1U : 0U;
+    counts.no_tangent += pixel.no_tangent ? 1U : 0U;
 }
 
 std::size_t plane_count(const Frame& frame, const AovSelection& aovs) {
@@ -96,7 +99,7 @@ std::size_t plane_count(const Frame& frame, const AovSelection& aovs) {
 } // namespace
 
 Pixel shade_pixel(const Frame& frame, int x, int y, const AovSelection& aovs) {
-    return shade_with(frame, planes_to_be_finite(frame), x, y, aovs);
+    return shade_with(PreparedFrame(frame), x, y, aovs);
 }
 
 Image shade(const Frame& frame, const AovSelection& aovs, int threads) {
@@ -108,12 +111,12 @@ Image shade(const Frame& frame, const AovSelection& aovs, int threads) {
     image.planes.assign(plane_count(frame, aovs), std::vector<double>(pixels, 0.0));
     image.material.assign(pixels, -1);
 
-    const std::vector<PlaneIndex> planes = planes_to_be_finite(frame);
+    const PreparedFrame prepared(frame);
     std::vector<PixelCounts> row_counts(static_cast<std::size_t>(image.height));
     const auto shade_row = [&](int y) {
         const auto row = static_cast<std::size_t>(y);
         for (int x = 0; x < image.width; ++x) {
-            const Pixel pixel = shade_with(frame, planes, x, y, aovs);
+            const Pixel pixel = shade_with(prepared, x, y, aovs);
             const std::size_t at = row * width + static_cast<std::size_t>(x);
             store(pixel, aovs, at, image.planes);
             image.material[at] = pixel.material;
@@ -126,6 +129,7 @@ Image shade(const Frame& frame, const AovSelection& aovs, int threads) {
         image.counts.nonfinite += row.nonfinite;
         image.counts.clamped += row.clamped;
         image.counts.fractional_ids += row.fractional_ids;
+        image.counts.no_tangent += row.no_tangent;
     }
     return image;
 }

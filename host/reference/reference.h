@@ -23,6 +23,7 @@ struct Pixel {
     bool nonfinite = false;
     bool clamped = false;
     bool fractional_id = false;
+    bool no_tangent = false; ///< of an anisotropic layer: missing or parallel to the normal
 };
 
 /// Shades pixel (x, y), counted from the data window's top left corner.
@@ -40,7 +41,8 @@ struct Image {
 [[nodiscard]] Image shade(const Frame& frame, const AovSelection& aovs, int threads);
 
 /// What a pixel's formulas start from, by name, for messages about it: coverage, N, E, position, material, its
-/// parameters after conversion, and per light ("key.NL", ...) N.L, N.E, N.H, E.H and E_0. "nonfinite" = 1 or
+/// parameters after conversion (those of layer k, the top being 1, as "layer1.f0.R", "layer1.shininess", "layer1.T.X",
+/// "layer1.absorption.R"), and per light ("key.NL", ...) N.L, N.E, N.H, E.H and E_0. "nonfinite" = 1 or
 /// "surface" = 0 alone where there is nothing to shade.
 [[nodiscard]] std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, int x, int y);
 

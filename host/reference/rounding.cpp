@@ -2,6 +2,7 @@
 
 #include "host/reference/angles.h"
 #include "host/reference/brdf.h"
+#include "host/reference/layers.h"
 #include "host/reference/lights.h"
 #include "host/reference/rows.h"
 #include "host/reference/surface.h"
@@ -29,11 +30,11 @@ std::array<glm::dvec3, 2> tangents(const glm::dvec3& v) {
 }
 
 /// Normalising rounds each component once; decoding and turning to world space round it a few times more.
-double normal_turn(const Frame& frame) {
+double vector_roundings(const Frame& frame) {
     double roundings = 1.0;
     roundings += frame.normal_encoding == NormalEncoding::unorm ? 3.0 : 0.0;
     roundings += frame.normal_space == NormalSpace::camera ? 2.0 : 0.0;
-    return roundings * unit_roundoff;
+    return roundings;
 }
 
 /// The eye is rounded where it stands: far from the origin and close to the surface, that is an angle.
@@ -57,6 +58,66 @@ double light_turn(const Frame& frame, const Light& light, const Surface& surface
     return (1.0 + size / glm::length(light.position - *surface.position)) * unit_roundoff;
 }
 
+/// A material at a pixel and what its parameters may be instead, each off by one rounding.
+struct Variants {
+    MaterialValues base;
+    std::vector<MaterialValues> others;
+};
+
+/// sqrt(f0) and the index of refraction round once each: with q = sqrt(f0), n = (1 + q)/(1 - q) moves by
+/// u + 2 q u/(1 - q^2), relatively, and q/(1 - q^2) = (n - 1)(n + 1)/(4 n). Media of nearly the same index keep few
+/// digits of their contrast.
+glm::dvec3 nudged_index(const glm::dvec3& n) {
+    glm::dvec3 nudged = n;
+    for (int i = 0; i < 3; ++i) {
+        if (!std::isinf(n[i])) {
+            nudged[i] += unit_roundoff * (n[i] + 0.5 * (n[i] * n[i] - 1.0));
+        }
+    }
+    return nudged;
+}
+
+/// t turned in the surface by its own rounding, which weighs more the closer t is to the normal.
+glm::dvec3 nudged_tangent(const Frame& frame, const LayerValues& layer) {
+    return layer.tangent_read +
+           vector_roundings(frame) * unit_roundoff * glm::length(layer.tangent_read) * layer.frame.bitangent;
+}
+
+/// Layer by layer: the index where interfaces inside the stack or the exact formula use it, and the tangent.
+void add_layer_variants(const Frame& frame, const glm::dvec3& normal, Variants& variants) {
+    const MaterialValues& base = variants.base;
+    const bool uses_index = base.layers().size() > 1 || base.fresnel == FresnelModel::exact;
+    for (std::size_t k = 0; k < base.layers().size(); ++k) {
+        const LayerValues& layer = base.layers()[k];
+        if (uses_index && layer.specular != SpecularModel::none) {
+            MaterialValues& other = variants.others.emplace_back(base);
+            other.layers()[k].index = nudged_index(layer.index);
+            find_interfaces(other);
+        }
+        if (layer.specular == SpecularModel::blinn_phong_anisotropic && !layer.frame.missing) {
+            MaterialValues& other = variants.others.emplace_back(base);
+            other.layers()[k].tangent_read = nudged_tangent(frame, layer);
+            find_tangents(other, normal);
+        }
+    }
+    if (base.absorption != AbsorptionModel::none) {
+        MaterialValues& other = variants.others.emplace_back(base);
+        for (LayerValues& layer : other.layers()) {
+            layer.absorption *= 1.0 + unit_roundoff;
+        }
+    }
+}
+
+Variants variants_at(const PreparedFrame& prepared, const Surface& surface, int x, int y) {
+    Variants variants;
+    variants.base = read_material(prepared, surface, x, y);
+    Surface nudged = surface;
+    nudged.coverage *= 1.0 - unit_roundoff;
+    variants.others.push_back(read_material(prepared, nudged, x, y));
+    add_layer_variants(prepared.frame(), surface.normal, variants);
+    return variants;
+}
+
 /// Radiance of one light along given directions. `power` is the irradiance before the cone.
 glm::dvec3 radiance(const MaterialValues& material, const Light& light, const glm::dvec3& power,
                     const std::array<glm::dvec3, 3>& d) {
@@ -69,19 +130,24 @@ glm::dvec3 larger_change(const glm::dvec3& base, const glm::dvec3& one, const gl
 }
 
 /// Sum of the changes for one light.
-glm::dvec3 light_shift(const MaterialValues& material, const MaterialValues& nudged, const Light& light,
-                       const glm::dvec3& power, const Directions& d) {
-    const glm::dvec3 base = radiance(material, light, power, d.vectors);
-    glm::dvec3 shift = glm::abs(radiance(nudged, light, power, d.vectors) - base);
-    shift += 2.0 * d.turns[2] * glm::abs(base); // E_0 = power / distance^2: the distance is off as the angle is
+glm::dvec3 light_shift(const Variants& variants, const Light& light, const glm::dvec3& power, const Directions& d) {
+    const glm::dvec3 base = radiance(variants.base, light, power, d.vectors);
+    glm::dvec3 shift =
+        2.0 * d.turns[2] * glm::abs(base); // E_0 = power / distance^2: the distance is off as the angle is
+    for (const MaterialValues& other : variants.others) {
+        shift += glm::abs(radiance(other, light, power, d.vectors) - base);
+    }
+    MaterialValues material = variants.base;
     for (std::size_t v = 0; v < d.vectors.size(); ++v) {
         for (const glm::dvec3& tangent : tangents(d.vectors[v])) {
-            std::array<glm::dvec3, 3> plus = d.vectors;
-            std::array<glm::dvec3, 3> minus = d.vectors;
-            plus[v] = glm::normalize(plus[v] + d.turns[v] * tangent);
-            minus[v] = glm::normalize(minus[v] - d.turns[v] * tangent);
-            shift +=
-                larger_change(base, radiance(material, light, power, plus), radiance(material, light, power, minus));
+            std::array<glm::dvec3, 3> turned = d.vectors;
+            const auto radiance_turned = [&](double turn) {
+                turned[v] = glm::normalize(d.vectors[v] + turn * tangent);
+                find_tangents(material, turned[0]); // T and B turn with N
+                return radiance(material, light, power, turned);
+            };
+            const glm::dvec3 plus = radiance_turned(d.turns[v]);
+            shift += larger_change(base, plus, radiance_turned(-d.turns[v]));
         }
     }
     return shift;
@@ -104,27 +170,25 @@ struct PixelScale {
     glm::dvec3 shift{0.0};
 };
 
-PixelScale pixel_scale(const Frame& frame, const std::vector<PlaneIndex>& planes, int x, int y) {
+PixelScale pixel_scale(const PreparedFrame& prepared, int x, int y) {
+    const Frame& frame = prepared.frame();
     PixelScale scale;
-    if (!all_finite(frame, planes, x, y)) {
+    if (!all_finite(prepared, x, y)) {
         return scale;
     }
     const std::optional<Surface> surface = read_surface(frame, x, y);
     if (!surface) {
         return scale;
     }
-    const MaterialValues material = read_material(frame, *surface, x, y);
-    Surface nudged_surface = *surface;
-    nudged_surface.coverage *= 1.0 - unit_roundoff;
-    const MaterialValues nudged = read_material(frame, nudged_surface, x, y);
+    const Variants variants = variants_at(prepared, *surface, x, y);
     glm::dvec3 level(0.0);
     for (const Light& light : frame.lights) {
         const Incident incident = incident_light(light, surface->position);
         level += incident.irradiance;
         const Directions directions{
             {surface->normal, surface->eye, incident.direction},
-            {normal_turn(frame), eye_turn(frame, *surface), light_turn(frame, light, *surface)}};
-        scale.shift += light_shift(material, nudged, light, power_at(light, surface->position), directions);
+            {vector_roundings(frame) * unit_roundoff, eye_turn(frame, *surface), light_turn(frame, light, *surface)}};
+        scale.shift += light_shift(variants, light, power_at(light, surface->position), directions);
     }
     scale.irradiance = largest(level) * surface->coverage;
     scale.shift *= surface->coverage;
@@ -139,10 +203,10 @@ RoundingScale rounding_scale(const Frame& frame, int threads) {
     RoundingScale scale;
     scale.irradiance.assign(pixels, 0.0);
     scale.shift.fill(std::vector<double>(pixels, 0.0));
-    const std::vector<PlaneIndex> planes = planes_to_be_finite(frame);
+    const PreparedFrame prepared(frame);
     const auto scan_row = [&](int y) {
         for (int x = 0; x < frame.planes.width(); ++x) {
-            const PixelScale pixel = pixel_scale(frame, planes, x, y);
+            const PixelScale pixel = pixel_scale(prepared, x, y);
             const std::size_t at = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
             scale.irradiance[at] = pixel.irradiance;
             for (int c = 0; c < 3; ++c) {

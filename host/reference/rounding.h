@@ -15,7 +15,8 @@ struct RoundingScale {
     /// terms are in proportion to it.
     std::vector<double> irradiance;
     /// For R, G, B: by how much the radiance changes when N, E and L each turn by one unit roundoff (2^-24 rad, more
-    /// where a difference of positions loses digits) and when parameters divided by coverage move by 2^-24. Every
+    /// where a difference of positions loses digits; tangents turn with N, and once by themselves), when parameters
+    /// divided by coverage move by 2^-24, and when every index of refraction in a stack and its absorption do. Every
     /// change counts with its absolute value; the sum is a first-order bound for one rounding of everything.
     std::array<std::vector<double>, 3> shift;
 };

@@ -1,7 +1,11 @@
 #include "host/reference/surface.h"
 
+#include "host/reference/fresnel.h"
+#include "host/reference/layers.h"
+
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +15,7 @@ namespace {
 
 constexpr double far_depth = 6e4; // rule 3: depths from here on are background sentinels
 constexpr double largest_shininess = 65536.0;
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 constexpr double clamp_slack = 1e-3; // rule 6: rounding beyond 0..1 that is not worth a warning
 
 double value_at(const Frame& frame, PlaneIndex plane, int x, int y) {
@@ -42,9 +47,9 @@ double read_coverage(const Frame& frame, int x, int y) {
     return frame.roles.coverage == no_plane ? 1.0 : std::clamp(value_at(frame, frame.roles.coverage, x, y), 0.0, 1.0);
 }
 
-/// Rule 3, first half: the normal as stored, decoded.
-glm::dvec3 raw_normal(const Frame& frame, double coverage, int x, int y) {
-    const glm::dvec3 stored = vector_at(frame, frame.roles.normal, x, y);
+/// Rules 3 and 6: a normal or tangent as stored, decoded.
+glm::dvec3 decoded_vector(const Frame& frame, const std::array<PlaneIndex, 3>& planes, double coverage, int x, int y) {
+    const glm::dvec3 stored = vector_at(frame, planes, x, y);
     return frame.normal_encoding == NormalEncoding::unorm ? 2.0 * (stored / coverage) - 1.0 : stored;
 }
 
@@ -85,20 +90,32 @@ glm::dvec3 eye_vector(const Frame& frame, const std::optional<glm::dvec3>& posit
     return view.has_rays ? -glm::normalize(pixel_ray(view, x, y).direction) : -glm::normalize(view.view_axis);
 }
 
+/// Rule 7: does a material claim a pixel whose id was rounded to `id`?
+bool claims_id(const BoundMaterial& material, double id) {
+    const auto same = [&](std::int64_t candidate) { return static_cast<double>(candidate) == id; };
+    return std::any_of(material.ids.begin(), material.ids.end(), same);
+}
+
+bool claims_by_name(const Frame& frame, const BoundMaterial& material, int x, int y) {
+    const auto same = [&](const CryptomatteClaim& claim) {
+        return std::bit_cast<std::uint32_t>(frame.planes.at(claim.plane, x, y)) == claim.bits;
+    };
+    return std::any_of(material.cryptomatte.begin(), material.cryptomatte.end(), same);
+}
+
 /// Rule 7.
 void find_material(const Frame& frame, int x, int y, Surface& surface) {
-    if (frame.roles.material_id == no_plane) {
-        return;
+    std::optional<double> id;
+    if (frame.roles.material_id != no_plane) {
+        const double read = value_at(frame, frame.roles.material_id, x, y);
+        id = std::nearbyint(read);
+        surface.fractional_id = std::abs(read - *id) > 0.01;
     }
-    const double id = value_at(frame, frame.roles.material_id, x, y);
-    const double whole = std::nearbyint(id);
-    surface.fractional_id = std::abs(id - whole) > 0.01;
     for (std::size_t m = 0; m < frame.materials.size(); ++m) {
-        for (const std::int64_t candidate : frame.materials[m].ids) {
-            if (static_cast<double>(candidate) == whole) {
-                surface.material = static_cast<int>(m);
-                return;
-            }
+        const BoundMaterial& material = frame.materials[m];
+        if ((id && claims_id(material, *id)) || claims_by_name(frame, material, x, y)) {
+            surface.material = static_cast<int>(m);
+            return;
         }
     }
 }
@@ -114,6 +131,8 @@ double converted(double x, Conversion convert) {
         return converted(1.0 - x, Conversion::ggx_roughness);
     case Conversion::oren_nayar_sigma:
         return 2.0 / (x * x);
+    case Conversion::index_of_refraction:
+        return f0_between(1.0, std::max(x, 1.0));
     }
     return x;
 }
@@ -134,6 +153,88 @@ glm::dvec3 read_parameter(const Frame& frame, const BoundParameter& parameter, d
     return value;
 }
 
+/// Reads the parameters of one material at one pixel, clamps them and remembers whether that changed anything.
+class ParameterReader {
+  public:
+    ParameterReader(const Frame& frame, double coverage, int x, int y)
+        : frame_(&frame), coverage_(coverage), x_(x), y_(y) {}
+
+    [[nodiscard]] bool clamped() const { return clamped_; }
+
+    glm::dvec3 in_range(const BoundParameter& parameter, double low, double high) {
+        const glm::dvec3 value = read_parameter(*frame_, parameter, coverage_, x_, y_);
+        for (int i = 0; i < 3; ++i) {
+            clamped_ |= value[i] < low - clamp_slack || value[i] > high + clamp_slack;
+        }
+        return glm::clamp(value, low, high);
+    }
+    [[nodiscard]] double shininess(const BoundParameter& parameter) const {
+        return std::clamp(read_parameter(*frame_, parameter, coverage_, x_, y_)[0], 0.0, largest_shininess);
+    }
+    /// t of rule 6 in world space.
+    [[nodiscard]] glm::dvec3 tangent(const BoundParameter& parameter) const {
+        if (parameter.is_constant()) {
+            return parameter.constant;
+        }
+        const glm::dvec3 t = decoded_vector(*frame_, parameter.planes, coverage_, x_, y_);
+        return frame_->normal_space == NormalSpace::camera ? frame_->view.camera_to_world * t : t;
+    }
+
+  private:
+    const Frame* frame_;
+    double coverage_;
+    int x_;
+    int y_;
+    bool clamped_ = false;
+};
+
+glm::dvec3 indices_of(const glm::dvec3& f0) {
+    return {index_of_f0(f0.x), index_of_f0(f0.y), index_of_f0(f0.z)};
+}
+
+void read_lobe(ParameterReader& reader, const BoundLayer& layer, const SpectralMetal& metal, LayerValues& values) {
+    values.specular = layer.specular;
+    switch (layer.specular) {
+    case SpecularModel::none:
+        return;
+    case SpecularModel::blinn_phong:
+    case SpecularModel::blinn_phong_exact:
+        values.f0 = reader.in_range(layer.f0, 0.0, 1.0);
+        values.shininess = reader.shininess(layer.shininess);
+        break;
+    case SpecularModel::blinn_phong_anisotropic:
+        values.f0 = reader.in_range(layer.f0, 0.0, 1.0);
+        values.shininess_u = reader.shininess(layer.shininess_u);
+        values.shininess_v = reader.shininess(layer.shininess_v);
+        values.tangent_read = reader.tangent(layer.tangent);
+        break;
+    case SpecularModel::blinn_phong_spectral:
+        values.metal = &metal;
+        values.f0 = metal.f0();
+        values.shininess = reader.shininess(layer.shininess);
+        break;
+    }
+    values.index = indices_of(values.f0);
+}
+
+void add_planes(const BoundParameter& parameter, std::vector<PlaneIndex>& planes) {
+    planes.insert(planes.end(), parameter.planes.begin(), parameter.planes.end());
+}
+
+void add_planes(const BoundMaterial& material, std::vector<PlaneIndex>& planes) {
+    for (const BoundLayer& layer : material.layers) {
+        for (const BoundParameter* parameter :
+             {&layer.f0, &layer.shininess, &layer.shininess_u, &layer.shininess_v, &layer.tangent, &layer.absorption}) {
+            add_planes(*parameter, planes);
+        }
+    }
+    add_planes(material.albedo, planes);
+    add_planes(material.diffuse_shininess, planes);
+    for (const CryptomatteClaim& claim : material.cryptomatte) {
+        planes.push_back(claim.plane);
+    }
+}
+
 } // namespace
 
 bool uses_diffuse_shininess(DiffuseModel model) {
@@ -141,34 +242,36 @@ bool uses_diffuse_shininess(DiffuseModel model) {
 }
 
 std::vector<PlaneIndex> planes_to_be_finite(const Frame& frame) {
-    std::vector<PlaneIndex> planes;
-    const auto add = [&](PlaneIndex plane) {
-        if (plane != no_plane) {
-            planes.push_back(plane);
-        }
-    };
-    const auto add_parameter = [&](const BoundParameter& parameter) {
-        std::for_each(parameter.planes.begin(), parameter.planes.end(), add);
-    };
-    std::for_each(frame.roles.normal.begin(), frame.roles.normal.end(), add);
-    std::for_each(frame.roles.position.begin(), frame.roles.position.end(), add);
-    add(frame.roles.coverage);
-    add(frame.roles.material_id);
+    std::vector<PlaneIndex> planes{frame.roles.coverage, frame.roles.material_id};
+    planes.insert(planes.end(), frame.roles.normal.begin(), frame.roles.normal.end());
+    planes.insert(planes.end(), frame.roles.position.begin(), frame.roles.position.end());
     for (const BoundMaterial& material : frame.materials) {
-        add_parameter(material.f0);
-        add_parameter(material.shininess);
-        add_parameter(material.albedo);
-        add_parameter(material.diffuse_shininess);
+        add_planes(material, planes);
     }
     if (frame.has_emission) {
-        add_parameter(frame.emission);
+        add_planes(frame.emission, planes);
     }
     std::sort(planes.begin(), planes.end());
     planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+    if (planes.front() == no_plane) {
+        planes.erase(planes.begin());
+    }
     return planes;
 }
 
-bool all_finite(const Frame& frame, const std::vector<PlaneIndex>& planes, int x, int y) {
+PreparedFrame::PreparedFrame(const Frame& frame) : frame_(&frame), finite_planes_(planes_to_be_finite(frame)) {
+    for (const BoundMaterial& material : frame.materials) {
+        std::vector<SpectralMetal>& metals = metals_.emplace_back();
+        for (const BoundLayer& layer : material.layers) {
+            const bool spectral = layer.specular == SpecularModel::blinn_phong_spectral;
+            metals.push_back(spectral ? SpectralMetal(layer.metal) : SpectralMetal());
+        }
+    }
+}
+
+bool all_finite(const PreparedFrame& prepared, int x, int y) {
+    const Frame& frame = prepared.frame();
+    const std::vector<PlaneIndex>& planes = prepared.finite_planes();
     const auto finite = [&](PlaneIndex plane) { return std::isfinite(frame.planes.at(plane, x, y)); };
     if (!std::all_of(planes.begin(), planes.end(), finite)) {
         return false;
@@ -190,7 +293,7 @@ std::optional<Surface> read_surface(const Frame& frame, int x, int y) {
     if (!(surface.coverage > 0.0) || (frame.roles.coverage == no_plane && is_far(frame, x, y))) {
         return std::nullopt;
     }
-    const glm::dvec3 raw = raw_normal(frame, surface.coverage, x, y);
+    const glm::dvec3 raw = decoded_vector(frame, frame.roles.normal, surface.coverage, x, y);
     if (!(glm::length(raw) >= 1e-6)) {
         return std::nullopt;
     }
@@ -206,32 +309,41 @@ std::optional<Surface> read_surface(const Frame& frame, int x, int y) {
     return surface;
 }
 
-MaterialValues read_material(const Frame& frame, const Surface& surface, int x, int y) {
-    const BoundMaterial& material = frame.materials[static_cast<std::size_t>(surface.material)];
+MaterialValues read_material(const PreparedFrame& prepared, const Surface& surface, int x, int y) {
+    const auto index = static_cast<std::size_t>(surface.material);
+    const BoundMaterial& material = prepared.frame().materials[index];
+    ParameterReader reader(prepared.frame(), surface.coverage, x, y);
     MaterialValues values;
-    values.specular = material.specular;
+    values.fresnel = material.fresnel;
+    values.absorption = material.absorption;
     values.diffuse = material.diffuse;
-    const auto unit_interval = [&](const BoundParameter& parameter) {
-        const glm::dvec3 value = read_parameter(frame, parameter, surface.coverage, x, y);
-        for (int i = 0; i < 3; ++i) {
-            values.clamped |= value[i] < -clamp_slack || value[i] > 1.0 + clamp_slack;
+    values.resize(material.layers.size());
+    for (std::size_t k = 0; k < material.layers.size(); ++k) {
+        LayerValues& layer = values.layers()[k];
+        read_lobe(reader, material.layers[k], prepared.metal(index, k), layer);
+        if (material.absorption != AbsorptionModel::none) {
+            layer.absorption = reader.in_range(material.layers[k].absorption, 0.0, unbounded);
         }
-        return glm::clamp(value, 0.0, 1.0);
-    };
-    const auto shininess = [&](const BoundParameter& parameter) {
-        return std::clamp(read_parameter(frame, parameter, surface.coverage, x, y)[0], 0.0, largest_shininess);
-    };
-    if (material.specular != SpecularModel::none) {
-        values.f0 = unit_interval(material.f0);
-        values.shininess = shininess(material.shininess);
     }
     if (material.diffuse != DiffuseModel::none) {
-        values.albedo = unit_interval(material.albedo);
+        values.albedo = reader.in_range(material.albedo, 0.0, 1.0);
     }
     if (uses_diffuse_shininess(material.diffuse)) {
-        values.diffuse_shininess = shininess(material.diffuse_shininess);
+        values.diffuse_shininess = reader.shininess(material.diffuse_shininess);
     }
+    values.clamped = reader.clamped();
+    find_tangents(values, surface.normal);
+    find_interfaces(values);
     return values;
+}
+
+void find_tangents(MaterialValues& material, const glm::dvec3& normal) {
+    for (LayerValues& layer : material.layers()) {
+        if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
+            layer.frame = tangent_frame(layer.tangent_read, normal);
+            material.no_tangent |= layer.frame.missing;
+        }
+    }
 }
 
 glm::dvec3 read_emission(const Frame& frame, const Surface& surface, int x, int y) {

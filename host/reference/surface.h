@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/gbuffer/frame.h"
+#include "host/reference/material_values.h"
 
 #include <glm/glm.hpp>
 
@@ -21,33 +22,43 @@ struct Surface {
     bool fractional_id = false;
 };
 
-/// A parameter set after rule 6, clamped, for one pixel of one material.
-struct MaterialValues {
-    SpecularModel specular = SpecularModel::none;
-    DiffuseModel diffuse = DiffuseModel::none;
-    glm::dvec3 f0{0.0};
-    glm::dvec3 albedo{0.0};
-    double shininess = 0.0;
-    double diffuse_shininess = 0.0;
-    bool clamped = false; ///< f0 or albedo lay beyond 0..1 by more than 1e-3
-};
-
 /// Planes that rule 1 wants finite, each once, but for the depth plane, whose +Inf is allowed.
 [[nodiscard]] std::vector<PlaneIndex> planes_to_be_finite(const Frame& frame);
 
-/// Rule 1. `planes` is what planes_to_be_finite returned.
-[[nodiscard]] bool all_finite(const Frame& frame, const std::vector<PlaneIndex>& planes, int x, int y);
+/// What is worked out once per frame, before its pixels are read. The frame must outlive it and stay as it is.
+class PreparedFrame {
+  public:
+    explicit PreparedFrame(const Frame& frame);
+
+    [[nodiscard]] const Frame& frame() const { return *frame_; }
+    [[nodiscard]] const std::vector<PlaneIndex>& finite_planes() const { return finite_planes_; }
+    /// Of a spectral layer.
+    [[nodiscard]] const SpectralMetal& metal(std::size_t material, std::size_t layer) const {
+        return metals_[material][layer];
+    }
+
+  private:
+    const Frame* frame_;
+    std::vector<PlaneIndex> finite_planes_;
+    std::vector<std::vector<SpectralMetal>> metals_; ///< per material and layer
+};
+
+/// Rule 1.
+[[nodiscard]] bool all_finite(const PreparedFrame& prepared, int x, int y);
 
 /// Rules 2 to 5 and 7 for a pixel that passed rule 1; none where there is no surface.
 [[nodiscard]] std::optional<Surface> read_surface(const Frame& frame, int x, int y);
 
-/// Rule 6. Only the parameters that the models use are read.
-[[nodiscard]] MaterialValues read_material(const Frame& frame, const Surface& surface, int x, int y);
+/// Rule 6. Only the parameters that the models use are read. Interfaces are found (host/reference/layers.h).
+[[nodiscard]] MaterialValues read_material(const PreparedFrame& prepared, const Surface& surface, int x, int y);
+
+/// Rule 6 for tangents: (again) made perpendicular to a normal.
+void find_tangents(MaterialValues& material, const glm::dvec3& normal);
 
 /// Rule 6 for emission; zero without it.
 [[nodiscard]] glm::dvec3 read_emission(const Frame& frame, const Surface& surface, int x, int y);
 
-/// Does this model read this parameter? (A lobe `none` needs neither F0 nor shininess; Lambert needs no shininess.)
+/// Does this model read this parameter? (Lambert needs no shininess.)
 [[nodiscard]] bool uses_diffuse_shininess(DiffuseModel model);
 
 } // namespace clshade::reference

@@ -1,9 +1,30 @@
 #include "host/reference/tolerance.h"
 
+#include <algorithm>
+
 namespace clshade::reference {
 
-Tolerance default_tolerance(SpecularModel specular, DiffuseModel /*diffuse*/) {
-    return {.rel = specular == SpecularModel::none ? 2e-6 : 1e-5,
+namespace {
+
+bool is_plain_lobe(SpecularModel model) {
+    return model == SpecularModel::blinn_phong || model == SpecularModel::blinn_phong_exact;
+}
+
+double relative_tolerance(const BoundMaterial& material) {
+    const SpecularModel base = material.base().specular;
+    if (material.layers.size() > 1) {
+        return 2e-5;
+    }
+    if (base == SpecularModel::none) {
+        return 2e-6;
+    }
+    return is_plain_lobe(base) && material.fresnel == FresnelModel::constant ? 1e-5 : 2e-5;
+}
+
+} // namespace
+
+Tolerance default_tolerance(const BoundMaterial& material) {
+    return {.rel = relative_tolerance(material),
             .abs = 0.0,
             .per_irradiance = 3e-7,
             .per_roundoff = 3.0,

@@ -1,7 +1,7 @@
 // How far a device may be from the reference.
 #pragma once
 
-#include "host/scene/scene.h"
+#include "host/gbuffer/frame.h"
 
 #include <limits>
 
@@ -25,11 +25,14 @@ struct Tolerance {
     }
 };
 
-/// What single precision can reach for a pair of models (models.md section 14), whatever the kernel does.
+/// What single precision can reach for a material (models.md section 14), whatever the kernel does.
 ///
 /// rel. Diffuse models alone: 2e-6. With a lobe: 1e-5, for NH^n = exp(n/2 log1p(-|N x H|^2)): where the lobe is above
 /// 3e-7 of its peak the exponent is below 15, and four roundings (6e-8 each) of it are 3.6e-6; the polynomial power,
-/// normaliser, Fresnel term and division bring about as much again (section 14 measures 2.4e-6).
+/// normaliser, Fresnel term and division bring about as much again (section 14 measures 2.4e-6). More factors, each
+/// with its roundings, get 2e-5: several layers (each above adds two Fresnel factors and an absorption, ten roundings
+/// or 6e-7 each: 4e-6 for seven), fresnel = exact (a quotient of differences under two square roots), the exponent of
+/// the anisotropic lobe (another five roundings of an exponent below 15: 4.5e-6) and the sum over a metal's spectrum.
 ///
 /// per_irradiance. 3e-7 of the light level: section 14's absolute tolerance, given there for E_0 = 1. It carries what
 /// cancels to nearly nothing, such as B gamma of Oren-Nayar.
@@ -47,6 +50,6 @@ struct Tolerance {
 /// the same formulas in plain single precision, on 400,000 random pixels with n up to 65536, left 0.006 % of them
 /// beyond one S, 1 pixel beyond 3 S (by 6 %), and 0.9 % beyond 0. One in 10,000 may pass 3 S where first order is not
 /// enough (a seam such as N.L = 0, a cone's hard edge), but none four times: a wrong formula does.
-[[nodiscard]] Tolerance default_tolerance(SpecularModel specular, DiffuseModel diffuse);
+[[nodiscard]] Tolerance default_tolerance(const BoundMaterial& material);
 
 } // namespace clshade::reference
