@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/gbuffer/camera.h"
 #include "host/gbuffer/channel_layers.h"
+#include "host/gbuffer/cryptomatte.h"
 #include "host/gbuffer/find_named.h"
 #include "host/gbuffer/parameter_binding.h"
 
@@ -95,6 +96,26 @@ bool any_material_has_ids(const Scene& scene) {
                        [](const Material& material) { return !material.ids.empty(); });
 }
 
+/// Materials, and the claims of those with Cryptomatte names.
+void bind_materials(PlaneTable& table, const RoleAssignment& roles, const Scene& scene, Frame& frame) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const AutomaticParameters automatic = i == 0 ? scene.automatic : AutomaticParameters{};
+        frame.materials.push_back(bind_material(table, roles, scene.materials[i], automatic));
+    }
+    const bool any_names = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                       [](const Material& material) { return !material.names.empty(); });
+    if (!any_names) {
+        return;
+    }
+    const CryptomatteSet cryptomattes(table.layout(), roles.view);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        frame.materials[i].cryptomatte = bind_claims(table, cryptomattes, scene.materials[i]);
+    }
+    refuse_shared_claims(frame.materials, scene.materials);
+    const std::vector<std::string> warnings = cryptomattes.warnings();
+    frame.warnings.insert(frame.warnings.end(), warnings.begin(), warnings.end());
+}
+
 constexpr std::string_view camera_keys = "write [camera] with matrix_world and fov_y_degrees (or fov_x_degrees, "
                                          "orthographic_height) in the scene file";
 
@@ -182,10 +203,7 @@ FramePlan plan_frame(const ImageLayout& layout, const RoleAssignment& roles, con
         require(layout, roles, Role::material_id, ", which the ids of the materials need");
         frame.roles.material_id = add_one(table, roles[Role::material_id]);
     }
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const AutomaticParameters automatic = i == 0 ? scene.automatic : AutomaticParameters{};
-        frame.materials.push_back(bind_material(table, roles, scene.materials[i], automatic));
-    }
+    bind_materials(table, roles, scene, frame);
     frame.has_emission =
         scene.emission_mapped && (roles.has(Role::emission) || !roles[Role::emission].ambiguous.empty());
     if (frame.has_emission) {
@@ -212,7 +230,7 @@ FramePlan plan_frame(const ImageLayout& layout, const RoleAssignment& roles, con
     frame.normal_encoding = scene.gbuffer.normal_encoding;
     frame.depth_kind = scene.gbuffer.depth_kind;
     frame.lights = scene.lights;
-    frame.warnings = layout.warnings;
+    frame.warnings.insert(frame.warnings.begin(), layout.warnings.begin(), layout.warnings.end());
     frame.warnings.insert(frame.warnings.end(), roles.warnings.begin(), roles.warnings.end());
     for (const int channel : plan.channels) {
         frame.plane_names.push_back(layout.channels[static_cast<std::size_t>(channel)].name);
