@@ -8,8 +8,9 @@
 
 namespace clshade {
 
-/// Reads the header of an EXR file. Costs no memory in proportion to what the header claims.
-/// Throws RuntimeFailure: missing, empty, not an EXR, truncated, deep, subsampled chroma, claims more than it holds.
+/// Reads the header of an EXR file, and the Cryptomatte manifests beside it that it names. Costs no memory in
+/// proportion to what the header claims. Throws RuntimeFailure: missing, empty, not an EXR, truncated, deep, subsampled
+/// chroma, claims more than it holds.
 [[nodiscard]] ImageLayout read_layout(const std::filesystem::path& file);
 
 /// Decodes plan.channels into plan.frame.planes (half and uint widened to float), nothing else. threads >= 1.

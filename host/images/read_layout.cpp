@@ -2,6 +2,7 @@
 #include "host/images/channel_names.h"
 #include "host/images/exr_file.h"
 #include "host/images/image_reader.h"
+#include "host/images/manifest_file.h"
 
 #include <fmt/format.h>
 
@@ -192,7 +193,9 @@ ImageLayout layout_of(const ExrFile& file) {
 
 ImageLayout read_layout(const std::filesystem::path& file) {
     try {
-        return layout_of(ExrFile(file));
+        ImageLayout layout = layout_of(ExrFile(file));
+        read_manifest_files(file, layout);
+        return layout;
     } catch (const std::bad_alloc&) {
         throw RuntimeFailure(fmt::format("{}: not enough memory to read the header; free memory", file.string()));
     }
