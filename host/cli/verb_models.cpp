@@ -33,24 +33,18 @@ nlohmann::json json_of(const ModelInfo& model) {
                               {"range", parameter.range},
                               {"default", parameter.fallback}});
     }
-    return {{"model", model.name},         {"kind", model.kind},     {"summary", model.summary},
-            {"source", model.source},      {"advice", model.advice}, {"parameters", parameters},
-            {"available", model.available}};
+    return {{"model", model.name},    {"kind", model.kind},     {"summary", model.summary},
+            {"source", model.source}, {"advice", model.advice}, {"parameters", parameters}};
 }
 
 void add_to(JsonReport& report, const ModelInfo& model) {
-    if (model.available) {
-        report.add(json_of(model));
-    } else {
-        report.add(json_of(model), "unsupported", "not built yet");
-    }
+    report.add(json_of(model));
 }
 
 std::string overview_of(std::span<const ModelInfo> models) {
     Table table({{"model", Align::left}, {"kind", Align::left}, {"summary", Align::left}});
     for (const ModelInfo& model : models) {
-        table.add_row({std::string(model.name), std::string(model.kind),
-                       (model.available ? "" : "(not built yet) ") + std::string(model.summary)});
+        table.add_row({std::string(model.name), std::string(model.kind), std::string(model.summary)});
     }
     return table.text() + "\n`clshade models NAME` shows parameters, ranges and source.\n";
 }
@@ -61,7 +55,7 @@ std::string page_of(const ModelInfo& model) {
                    ? std::string()
                    : fmt::format("{:<{}}{}\n", label, label_width, wrap(text, text_width - label_width, label_width));
     };
-    std::string page = fmt::format("{} ({}{})\n\n", model.name, model.kind, model.available ? "" : ", not built yet");
+    std::string page = fmt::format("{} ({})\n\n", model.name, model.kind);
     page += line("what", model.summary) + line("when", model.advice) + line("source", model.source);
     if (!model.parameters.empty()) {
         Table table(

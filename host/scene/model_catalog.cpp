@@ -6,67 +6,105 @@ namespace clshade {
 
 namespace {
 
-constexpr ParameterInfo f0{"f0", "1", "0..1, one or three numbers", "0.04; a scene without materials: the f0 role"};
-constexpr ParameterInfo ior{"ior", "1", "1 or more, one or three numbers", "not used; sets f0 = ((n-1)/(n+1))^2"};
-constexpr ParameterInfo shininess{"shininess", "1", "0..65536",
-                                  "64; a scene without materials: the roughness or shininess role"};
-constexpr ParameterInfo albedo{"albedo", "1", "0..1, one or three numbers",
-                               "0.5; a scene without materials: the albedo role"};
-constexpr ParameterInfo diffuse_shininess{"shininess", "1", "0..65536 (sigma^2 = 2/shininess)",
-                                          "the specular shininess of the same material"};
-constexpr ParameterInfo shininess_u{"shininess_u", "1", "0..65536", "along the tangent; none"};
-constexpr ParameterInfo shininess_v{"shininess_v", "1", "0..65536", "across the tangent; none"};
-constexpr ParameterInfo metal{"metal", "1", "a metal's name or an n,k table file", "none"};
+constexpr std::string_view materials = "interface of scene files";
+
+constexpr ParameterInfo f0{"f0", "1", "0..1; one or three numbers or channels",
+                           "0.04; a scene without materials: the f0 role", "models.md section 0"};
+constexpr ParameterInfo ior{"ior", "1", "1 or more; one or three numbers or channels",
+                            "not used; sets f0 = ((n-1)/(n+1))^2, in air", "models.md section 5"};
+constexpr ParameterInfo shininess{"shininess", "1", "0..65536; a number or a channel",
+                                  "64; a scene without materials: the roughness or shininess role",
+                                  "models.md section 0"};
+constexpr ParameterInfo shininess_u{"shininess_u", "1", "0..65536; a number or a channel",
+                                    "must be written; exponent along the tangent", "models.md section 3"};
+constexpr ParameterInfo shininess_v{"shininess_v", "1", "0..65536; a number or a channel",
+                                    "must be written; exponent across the tangent", "models.md section 3"};
+constexpr ParameterInfo tangent{"tangent", "1", "three numbers (world space, not all 0), or a role or layer",
+                                "the tangent role", "models.md section 3"};
+constexpr ParameterInfo metal{"metal", "nm, 1, 1", "gold, copper, or a file of lines wavelength_nm,n,k",
+                              "must be written", "models.md section 4"};
+constexpr ParameterInfo albedo{"albedo", "1", "0..1; one or three numbers or channels",
+                               "0.5; a scene without materials: the albedo role", "models.md section 0"};
+constexpr ParameterInfo diffuse_shininess{"shininess", "1", "0..65536 (sigma^2 = 2/shininess); a number or a channel",
+                                          "the specular shininess of the same layer", "models.md section 8.7"};
 
 constexpr std::array blinn_phong{f0, ior, shininess};
-constexpr std::array anisotropic{f0, ior, shininess_u, shininess_v};
+constexpr std::array anisotropic{f0, ior, shininess_u, shininess_v, tangent};
 constexpr std::array spectral{metal, shininess};
 constexpr std::array lambert{albedo};
 constexpr std::array oren_nayar{albedo, diffuse_shininess};
 
-constexpr std::array<ModelInfo, 11> models{{
-    {"blinn_phong", "specular", true,
+constexpr std::array<ParameterInfo, 7> layers{{
+    {"layer", "-", "one to eight tables of specular, absorption and, in the last, diffuse; top first",
+     "specular and diffuse written straight into the material: one layer", "models.md section 5"},
+    {"fresnel", "-", "constant, exact", "constant", "Gotanda 2012, \"Multiple Layers\"; models.md section 5"},
+    {"absorption_model", "-", "approximated, original, none", "approximated",
+     "Gotanda 2012, \"Multiple Layers\"; models.md section 5"},
+    {"absorption", "1",
+     "0 or more, of every layer but the last; one or three numbers or channels. approximated: a', physically up to "
+     "0.5; original: alpha d",
+     "0", "models.md section 5"},
+    {"ids", "1", "whole numbers within +-16777216: values of the material_id plane",
+     "none; a material other than default needs ids or names", materials},
+    {"names", "-", "Cryptomatte names of the file's manifest", "none; see ids", materials},
+    {"preset", "-", "a preset's name; keys written beside it override", "none", materials},
+}};
+
+constexpr std::array<ModelInfo, 12> models{{
+    {"blinn_phong", "specular",
      "Blinn-Phong with a linear normaliser and a Gaussian Schlick Fresnel; diffuse weight 1 - F0",
      "Gotanda 2012, \"Approximated Blinn-Phong\"; models.md section 2",
      "The model games ship; within 1 % of the exact normaliser for a shininess of 9 and more. Below n = 9 it is too "
-     "dark "
-     "(46 % at n = 0): use blinn_phong_exact there.",
+     "dark (46 % at n = 0): use blinn_phong_exact there.",
      blinn_phong},
-    {"blinn_phong_exact", "specular", true,
+    {"blinn_phong_exact", "specular",
      "Blinn-Phong with the closed-form normaliser and exact Schlick Fresnel; diffuse weight 1 - Schlick(F0, N.L)",
      "Gotanda 2012, \"Physically based Blinn-Phong\"; models.md section 1",
      "Right for every shininess, below n = 9 as well; never reflects more than it receives. Costs one more exponential "
      "per pixel.",
      blinn_phong},
-    {"blinn_phong_anisotropic", "specular", false, "Highlights stretched along or across a tangent",
-     "Gotanda 2010, anisotropic Blinn-Phong; models.md section 3", "Not built yet. For brushed metal and hair.",
+    {"blinn_phong_anisotropic", "specular",
+     "Highlights drawn out along a tangent: one exponent along it, one across; closed-form normaliser",
+     "Gotanda 2010, anisotropic Blinn-Phong; Ashikhmin and Shirley 2000; models.md section 3",
+     "Brushed metal, hair, satin, records. The highlight is long along the axis with the smaller exponent. Needs a "
+     "tangent plane, or a constant tangent for turned or flat parts.",
      anisotropic},
-    {"blinn_phong_spectral", "specular", false, "Fresnel from the complex index of refraction of a metal",
+    {"blinn_phong_spectral", "specular",
+     "Fresnel reflectance from a metal's complex index of refraction at 81 wavelengths, linear normaliser",
      "Gotanda 2010, spectral Fresnel; models.md section 4",
-     "Not built yet. Until then give the metal's colour as f0 of blinn_phong.", spectral},
-    {"lambert", "diffuse", true, "The same brightness from every side", "Lambert 1760; models.md sections 1 and 2",
+     "Metals, where colour shifts towards grazing view. f0 of blinn_phong is enough where that does not matter: it is "
+     "off by at most 0.04 for gold and copper.",
+     spectral},
+    {"lambert", "diffuse", "The same brightness from every side", "Lambert 1760; models.md sections 1 and 2",
      "Smooth plastics, paints, anything with shininess above about 200.", lambert},
-    {"oren_nayar", "diffuse", true, "tri-Ace's improved Oren-Nayar: one division per light, no trigonometry",
+    {"oren_nayar", "diffuse", "tri-Ace's improved Oren-Nayar: one division per light, no trigonometry",
      "Gotanda 2012, \"Improved Oren-Nayar\"; models.md section 8.6",
      "The first choice for rough surfaces (shininess below 30): closest to the full model with albedo around 0.4, "
      "positive and reciprocal.",
      oren_nayar},
-    {"oren_nayar_full", "diffuse", true, "Oren and Nayar's full model with interreflection",
+    {"oren_nayar_full", "diffuse", "Oren and Nayar's full model with interreflection",
      "Oren and Nayar 1994; Gotanda 2012; models.md section 8.1",
      "The reference for the others; slow, and up to 5 % too bright at grazing view with albedo 1.", oren_nayar},
-    {"oren_nayar_qualitative", "diffuse", true, "Oren and Nayar's qualitative model, with angles",
+    {"oren_nayar_qualitative", "diffuse", "Oren and Nayar's qualitative model, with angles",
      "Oren and Nayar 1994; Gotanda 2012; models.md section 8.2",
      "What most renderers call Oren-Nayar; for comparison. Darker than the full model away from the light.",
      oren_nayar},
-    {"oren_nayar_simplified_1", "diffuse", true, "The qualitative model without trigonometry",
+    {"oren_nayar_simplified_1", "diffuse", "The qualitative model without trigonometry",
      "Gotanda 2012, first simplification; models.md section 8.3",
      "Equal to oren_nayar_qualitative; shows what the algebra saves.", oren_nayar},
-    {"oren_nayar_simplified_2", "diffuse", true, "The same with the cosine multiplied in",
+    {"oren_nayar_simplified_2", "diffuse", "The same with the cosine multiplied in",
      "Gotanda 2012, second simplification; models.md section 8.4",
      "Equal to oren_nayar_qualitative; the form to use of it in single precision.", oren_nayar},
-    {"oren_nayar_shininess", "diffuse", true, "The simplified model with coefficients straight from the shininess",
+    {"oren_nayar_shininess", "diffuse", "The simplified model with coefficients straight from the shininess",
      "Gotanda 2012, shininess parameter; models.md section 8.5",
      "As oren_nayar_qualitative, but finite down to shininess 0; one map may drive specular and diffuse.", oren_nayar},
+    {"layers", "stack",
+     "One to eight layers, any lobe in any layer: each interface weakens and each medium tints what comes from below",
+     "Weidlich and Wilkie 2009; Gotanda 2012, \"Multiple Layers\"; models.md section 5",
+     "Varnish, clear coat, oil on skin, wet surfaces. constant and approximated are what the deck ships; exact and "
+     "original cost more and are right towards grazing angles too. A layer with index 1 and no absorption changes "
+     "nothing.",
+     layers},
 }};
 
 } // namespace

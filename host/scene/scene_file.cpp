@@ -4,6 +4,8 @@
 #include "host/scene/scene_lights.h"
 #include "host/scene/scene_materials.h"
 #include "host/scene/scene_overrides.h"
+#include "host/scene/scene_presets.h"
+#include "host/scene/text_file.h"
 #include "host/scene/toml_reader.h"
 #include "host/scene/toml_value.h"
 
@@ -11,9 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
 
 namespace clshade {
 
@@ -23,8 +22,8 @@ constexpr std::array<std::string_view, 8> scene_keys{"version",     "units",  "c
                                                      "environment", "output", "light",  "material"};
 constexpr std::array<std::string_view, 1> output_keys{"background"};
 
-/// Far beyond any scene written by hand or by a script; keeps --scene /dev/zero from eating the memory.
-constexpr std::size_t largest_file = std::size_t{16} << 20U;
+/// MiB. Far beyond any scene written by hand or by a script; keeps --scene /dev/zero from eating the memory.
+constexpr std::size_t largest_file = 16;
 
 /// Key over the left shoulder, slightly warm; a weak cool fill from the right; a rim light from behind and above.
 /// Levels: a grey (0.5) surface that faces the key comes out at about 0.5. Directions are in camera space.
@@ -85,15 +84,31 @@ bool has_default_material(const TomlTable& root) {
     return table != nullptr && table->find("default") != nullptr;
 }
 
-Scene read_tree(TomlTable root, const std::string& file, std::span<const std::string> overrides,
-                std::string_view model) {
-    const bool default_written = has_default_material(root);
+/// Presets are written out before overrides reach into them, and again for what an override brought along. Returns
+/// whether the default material is written: by the file or by a preset.
+bool apply_overrides(TomlTable& root, std::span<const std::string> overrides, std::string_view model) {
+    bool default_written = has_default_material(root);
+    for (const std::string& assignment : overrides) {
+        if (chooses_preset(assignment)) {
+            apply_override(root, assignment);
+        }
+    }
+    default_written |= expand_presets(root);
     if (!model.empty()) {
         apply_model(root, model);
     }
     for (const std::string& assignment : overrides) {
-        apply_override(root, assignment);
+        if (!chooses_preset(assignment)) {
+            apply_override(root, assignment);
+        }
     }
+    default_written |= expand_presets(root);
+    return default_written;
+}
+
+Scene read_tree(TomlTable root, const std::string& file, std::span<const std::string> overrides,
+                std::string_view model) {
+    const bool default_written = apply_overrides(root, overrides, model);
     check_version(root, file);
     const TableReader table(root, {file, 1, 1}, "the scene", scene_keys);
     if (const TomlEntry* units = table.find("units")) {
@@ -125,31 +140,6 @@ Scene read_tree(TomlTable root, const std::string& file, std::span<const std::st
     return scene;
 }
 
-std::string read_text(const std::filesystem::path& file) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error)) {
-        fail({file.string(), 0, 0}, "the scene is a folder; name a TOML file");
-    }
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) {
-        fail({file.string(), 0, 0}, fmt::format("cannot open the scene ({}); check the path of --scene",
-                                                std::generic_category().message(errno)));
-    }
-    std::string text;
-    std::array<char, 65536> block{};
-    while (stream && text.size() <= largest_file) {
-        stream.read(block.data(), block.size());
-        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-    }
-    if (stream.bad()) {
-        fail({file.string(), 0, 0}, "reading the scene failed; check the file");
-    }
-    if (text.size() > largest_file) {
-        fail({file.string(), 0, 0}, "the scene is larger than 16 MiB; name a TOML file");
-    }
-    return text;
-}
-
 } // namespace
 
 Scene parse_scene(std::string_view text, const std::string& file, std::span<const std::string> overrides,
@@ -158,7 +148,9 @@ Scene parse_scene(std::string_view text, const std::string& file, std::span<cons
 }
 
 Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides, std::string_view model) {
-    return parse_scene(read_text(file), file.string(), overrides, model);
+    const TextFileWords words{"the scene", "name a TOML file", "check the path of --scene"};
+    const std::string text = read_text_file(file, largest_file, words, {file.string(), 0, 0});
+    return parse_scene(text, file.string(), overrides, model);
 }
 
 Scene default_scene(std::span<const std::string> overrides, std::string_view model) {

@@ -20,21 +20,6 @@ namespace {
 
 using Path = std::span<const std::string>;
 
-/// Gives a value and all it holds one place.
-void set_place(TomlValue& value, const SourceLocation& where) {
-    value.where = where;
-    if (TomlArray* list = value.array()) {
-        for (TomlValue& element : *list) {
-            set_place(element, where);
-        }
-    } else if (TomlTable* table = value.table()) {
-        for (TomlEntry& entry : table->entries) {
-            entry.where = where;
-            set_place(entry.value, where);
-        }
-    }
-}
-
 /// The keys of a dotted path; the TOML parser knows how they may be quoted.
 std::vector<std::string> split_path(std::string_view path, const SourceLocation& where) {
     std::vector<std::string> keys;
@@ -64,7 +49,7 @@ TomlValue parse_value(std::string_view text, const SourceLocation& where) {
         TomlTable tree = parse_toml(fmt::format("value = {}", text), {});
         if (tree.entries.size() == 1) {
             TomlValue value = std::move(tree.entries.front().value);
-            set_place(value, where);
+            set_place(value, where, Origin::command_line);
             return value;
         }
     } catch (const UsageError&) {
@@ -121,6 +106,7 @@ void set_in_table(TomlTable& table, Path path, TomlValue value) {
         entry = &table.entries.back();
     }
     entry->where = value.where;
+    entry->origin = Origin::command_line;
     set_in_value(entry->value, key, path.subspan(1), std::move(value));
 }
 
@@ -139,10 +125,10 @@ void set_in_value(TomlValue& target, std::string_view target_key, Path path, Tom
     }
 }
 
-/// The material's only layer, where the default material is written as a stack of one.
-TomlTable* single_layer(TomlTable& root) {
+/// The list of tables that a material is written as; null if it is written without layers.
+TomlArray* layers_of(TomlTable& root, const std::string& material) {
     TomlTable* table = &root;
-    for (const std::string_view key : {"material", "default"}) {
+    for (const std::string& key : {std::string("material"), material}) {
         TomlEntry* entry = table->find(key);
         table = entry == nullptr ? nullptr : entry->value.table();
         if (table == nullptr) {
@@ -151,47 +137,92 @@ TomlTable* single_layer(TomlTable& root) {
     }
     TomlEntry* layers = table->find("layer");
     TomlArray* list = layers == nullptr ? nullptr : layers->value.array();
-    return list != nullptr && list->size() == 1 ? list->front().table() : nullptr;
+    return list == nullptr || list->empty() ? nullptr : list;
 }
 
-} // namespace
+/// Leads material.NAME.diffuse (and material.NAME.specular of a single layer) to the layer that has it.
+std::vector<std::string> into_layers(TomlTable& root, std::vector<std::string> path, const SourceLocation& where) {
+    const bool names_lobe =
+        path.size() >= 3 && path[0] == "material" && (path[2] == "specular" || path[2] == "diffuse");
+    const TomlArray* layers = names_lobe ? layers_of(root, path[1]) : nullptr;
+    if (layers == nullptr) {
+        return path;
+    }
+    if (path[2] == "specular" && layers->size() > 1) {
+        fail(where, fmt::format("material '{0}' has {1} layers, each with its own specular lobe; write for instance "
+                                "material.{0}.layer.0.specular.model=blinn_phong, layers counted from 0 = top",
+                                path[1], layers->size()));
+    }
+    const std::vector<std::string> detour{"layer", fmt::format("{}", layers->size() - 1)};
+    path.insert(path.begin() + 2, detour.begin(), detour.end());
+    return path;
+}
 
-void apply_override(TomlTable& root, const std::string& assignment) {
-    const SourceLocation where{fmt::format("--set {}", assignment), 0, 0};
+struct Assignment {
+    SourceLocation where;
+    std::vector<std::string> path;
+    std::string_view value;
+};
+
+Assignment split(const std::string& assignment) {
+    SourceLocation where{fmt::format("--set {}", assignment), 0, 0};
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos) {
         fail(where, "the assignment has no '='; write for instance material.default.specular.shininess=32");
     }
-    const std::vector<std::string> path = split_path(std::string_view(assignment).substr(0, equals), where);
-    set_in_table(root, path, parse_value(std::string_view(assignment).substr(equals + 1), where));
+    const std::string_view text = assignment;
+    std::vector<std::string> path = split_path(text.substr(0, equals), where);
+    return {std::move(where), std::move(path), text.substr(equals + 1)};
 }
 
-void apply_model(TomlTable& root, std::string_view model) {
-    const SourceLocation where{fmt::format("--model {}", model), 0, 0};
-    std::vector<std::string_view> names;
-    for (const ModelInfo& info : model_catalog()) {
-        if (info.name == model) {
-            TomlValue value{std::string(model), where};
-            if (TomlTable* layer = single_layer(root)) {
-                const std::vector<std::string> path{std::string(info.kind), "model"};
-                set_in_table(*layer, path, std::move(value));
-            } else {
-                const std::vector<std::string> path{"material", "default", std::string(info.kind), "model"};
-                set_in_table(root, path, std::move(value));
-            }
-            return;
-        }
-        names.push_back(info.name);
-    }
+/// How --model can be misunderstood; otherwise a suggestion.
+[[noreturn]] void fail_model(const SourceLocation& where, std::string_view model,
+                             std::span<const std::string_view> names) {
     if (model == "none") {
         fail(where, "'none' may mean either lobe; write --set material.default.specular.model=none or "
                     "--set material.default.diffuse.model=none");
+    }
+    for (const PresetInfo& preset : preset_catalog()) {
+        if (preset.name == model) {
+            fail(where, fmt::format("'{0}' is a preset, not a model; write --set material.default.preset={0}", model));
+        }
     }
     std::string advice = did_you_mean(model, names);
     if (advice.empty()) {
         advice = fmt::format("; write one of {}", quoted_list(names));
     }
     fail(where, fmt::format("unknown model{}", advice));
+}
+
+} // namespace
+
+void apply_override(TomlTable& root, const std::string& assignment) {
+    Assignment parts = split(assignment);
+    const std::vector<std::string> path = into_layers(root, std::move(parts.path), parts.where);
+    set_in_table(root, path, parse_value(parts.value, parts.where));
+}
+
+bool chooses_preset(const std::string& assignment) {
+    const std::vector<std::string> path = split(assignment).path;
+    return path.size() == 3 && path[0] == "material" && path[2] == "preset";
+}
+
+void apply_model(TomlTable& root, std::string_view model) {
+    const SourceLocation where{fmt::format("--model {}", model), 0, 0};
+    std::vector<std::string_view> names;
+    for (const ModelInfo& info : model_catalog()) {
+        if (info.kind != "specular" && info.kind != "diffuse") {
+            continue;
+        }
+        if (info.name == model) {
+            const std::vector<std::string> path =
+                into_layers(root, {"material", "default", std::string(info.kind), "model"}, where);
+            set_in_table(root, path, TomlValue{std::string(model), where});
+            return;
+        }
+        names.push_back(info.name);
+    }
+    fail_model(where, model, names);
 }
 
 } // namespace clshade

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace clshade {
 
@@ -62,14 +64,18 @@ Parameter read_parameter(const TomlValue& value, std::string_view key, const Ran
     return parameter;
 }
 
+void refuse_conversion(const Parameter& parameter, std::string_view key, std::string_view kind) {
+    if (parameter.convert != Conversion::none) {
+        fail(parameter.where, fmt::format("convert = \"{}\" makes a shininess, but '{}' is {}; remove 'convert'",
+                                          name_of(parameter.convert), key, kind));
+    }
+}
+
 } // namespace
 
 Parameter read_reflectance(const TomlValue& value, std::string_view key) {
     Parameter parameter = read_parameter(value, key, unit_range);
-    if (parameter.convert != Conversion::none) {
-        fail(value.where, fmt::format("convert = \"{}\" makes a shininess, but '{}' is a reflectance; remove 'convert'",
-                                      name_of(parameter.convert), key));
-    }
+    refuse_conversion(parameter, key, "a reflectance");
     return parameter;
 }
 
@@ -85,10 +91,49 @@ Parameter read_shininess(const TomlValue& value, std::string_view key) {
 }
 
 Parameter read_ior(const TomlValue& value) {
-    // models.md section 5: F0 = ((n - 1) / (n + 1))^2 against air.
-    const glm::dvec3 n = as_colour(value, "ior", ior_range);
-    const glm::dvec3 ratio = (n - 1.0) / (n + 1.0);
-    Parameter parameter = Parameter::of(ratio * ratio);
+    if (const TomlTable* table = value.table()) {
+        if (const TomlEntry* convert = table->find("convert")) {
+            fail(convert->where, "'ior' is converted to a reflectance already; remove 'convert'");
+        }
+    }
+    Parameter parameter = read_parameter(value, "ior", ior_range);
+    if (parameter.is_constant()) {
+        // models.md section 5: F0 = ((n - 1) / (n + 1))^2 against air.
+        const glm::dvec3 ratio = (parameter.constant - 1.0) / (parameter.constant + 1.0);
+        parameter.constant = ratio * ratio;
+    } else {
+        parameter.convert = Conversion::index_of_refraction;
+    }
+    return parameter;
+}
+
+Parameter read_absorption(const TomlValue& value) {
+    Parameter parameter = read_parameter(value, "absorption", not_negative);
+    refuse_conversion(parameter, "absorption", "an absorption");
+    return parameter;
+}
+
+Parameter read_tangent(const TomlValue& value) {
+    if (const TomlTable* table = value.table()) {
+        for (const std::string_view key : {"convert", "scale", "offset"}) {
+            if (const TomlEntry* entry = table->find(key)) {
+                fail(entry->where, fmt::format("'tangent' is a direction, which '{}' would turn; remove it", key));
+            }
+        }
+    }
+    if (value.table() != nullptr || names_channels(value)) {
+        return read_parameter(value, "tangent", any_number);
+    }
+    if (value.array() == nullptr) {
+        fail_type(value, "tangent", "three numbers, or a role or layer name");
+    }
+    const glm::dvec3 written = as_vector(value, "tangent");
+    // Divided by the largest component first: the square of a number such as 1e-200 would be 0.
+    const double largest = std::max({std::abs(written.x), std::abs(written.y), std::abs(written.z)});
+    if (largest == 0.0) {
+        fail(value.where, "'tangent' is zero; write a direction such as [0, 0, 1]");
+    }
+    Parameter parameter = Parameter::of(glm::normalize(written / largest));
     parameter.where = value.where;
     return parameter;
 }

@@ -31,8 +31,7 @@ void fail(const SourceLocation& where, const std::string& message) {
 }
 
 void fail_not_built(const SourceLocation& where, const std::string& subject, std::string_view advice) {
-    fail(where, fmt::format("{} is not built yet (this version shades single layers with punctual lights); {}", subject,
-                            advice));
+    fail(where, fmt::format("{} is not built yet (this version shades with punctual lights); {}", subject, advice));
 }
 
 void fail_type(const TomlValue& value, std::string_view key, std::string_view what) {

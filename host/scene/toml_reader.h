@@ -17,7 +17,7 @@ namespace clshade {
 /// Throws UsageError "FILE:LINE:COL: message".
 [[noreturn]] void fail(const SourceLocation& where, const std::string& message);
 
-/// Throws UsageError "... `subject` is not built yet (this version shades single layers with punctual lights);
+/// Throws UsageError "... `subject` is not built yet (this version shades with punctual lights);
 /// `advice`".
 [[noreturn]] void fail_not_built(const SourceLocation& where, const std::string& subject, std::string_view advice);
 

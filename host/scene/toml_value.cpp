@@ -73,6 +73,21 @@ std::string_view TomlValue::kind() const {
     return kinds.at(data.index());
 }
 
+void set_place(TomlValue& value, const SourceLocation& where, Origin origin) {
+    value.where = where;
+    if (TomlArray* list = value.array()) {
+        for (TomlValue& element : *list) {
+            set_place(element, where, origin);
+        }
+    } else if (TomlTable* table = value.table()) {
+        for (TomlEntry& entry : table->entries) {
+            entry.where = where;
+            entry.origin = origin;
+            set_place(entry.value, where, origin);
+        }
+    }
+}
+
 TomlTable parse_toml(std::string_view text, const std::string& file) {
     try {
         return convert_table(toml::parse(text), file);

@@ -15,6 +15,14 @@ namespace clshade {
 struct TomlEntry;
 struct TomlValue;
 
+/// Who wrote an entry, lowest rank first. Where two entries of one lobe exclude each other (a metal beside a model
+/// without one, `f0` beside `ior`), the lower rank gives way; of equal rank they are a mistake.
+enum class Origin {
+    preset,
+    file,
+    command_line, ///< --set or --model
+};
+
 /// Dates and times: no key of a scene takes them, so only their presence is kept.
 struct TomlDate {};
 
@@ -45,7 +53,11 @@ struct TomlEntry {
     std::string key;
     SourceLocation where; ///< of the key
     TomlValue value;
+    Origin origin = Origin::file;
 };
+
+/// Gives a value and all that it holds one place and one origin.
+void set_place(TomlValue& value, const SourceLocation& where, Origin origin);
 
 /// Parses TOML text; `file` names it in messages. Throws UsageError "FILE:LINE:COL: ..." on bad syntax.
 [[nodiscard]] TomlTable parse_toml(std::string_view text, const std::string& file);
