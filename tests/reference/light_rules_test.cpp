@@ -103,9 +103,9 @@ TEST(Rule8, SpotLightFadesByASmoothstepOfTheAngle) {
 
 TEST(Rule8, EyeBehindTheSurfaceCountsAsGrazing) {
     TinyFrame t;
-    t.material().specular = SpecularModel::blinn_phong_exact;
-    t.material().f0.constant = glm::dvec3(0.5);
-    t.material().shininess.constant = glm::dvec3(4.0);
+    t.material().base().specular = SpecularModel::blinn_phong_exact;
+    t.material().base().f0.constant = glm::dvec3(0.5);
+    t.material().base().shininess.constant = glm::dvec3(4.0);
     t.frame.view.view_axis = glm::normalize(glm::dvec3(-1.0, 0.0, 0.5)); // E = (2, 0, -1) / sqrt(5)
     EXPECT_EQ(t.described("sun.NE"), 1e-4);
     // E.L, H and N.H are of the real E: E.L = -0.447, N.H = (N.L + N.E) / |L + E| with the unclamped N.E
@@ -118,15 +118,15 @@ TEST(Rule8, EyeBehindTheSurfaceCountsAsGrazing) {
 
 TEST(Rule8, OppositeEyeAndLightHaveNoHalfVector) {
     TinyFrame t;
-    t.material().specular = SpecularModel::blinn_phong;
-    t.material().f0.constant = glm::dvec3(0.5);
-    t.material().shininess.constant = glm::dvec3(0.0);
+    t.material().base().specular = SpecularModel::blinn_phong;
+    t.material().base().f0.constant = glm::dvec3(0.5);
+    t.material().base().shininess.constant = glm::dvec3(0.0);
     t.frame.view.view_axis = {0.0, 0.0, 1.0};      // E = -L
     EXPECT_DOUBLE_EQ(t.described("sun.NH"), 1e-6); // the guards: 1e-12 / 1e-6
     EXPECT_EQ(t.described("sun.EH"), 0.0);
     // NH^0 = 1 and F(0) = 1
     EXPECT_NEAR(t.shade().specular.x, 2.0 * normaliser_linear(0.0), 1e-15);
-    t.material().shininess.constant = glm::dvec3(1.0);
+    t.material().base().shininess.constant = glm::dvec3(1.0);
     EXPECT_LT(t.shade().specular.x, 2.0 * normaliser_linear(1.0) * 1.001e-6);
 }
 
@@ -150,12 +150,12 @@ TEST(Rule8, ShortSumsOfEyeAndLightGiveAShorterHalfVector) {
 TEST(Rule9, DiffuseIsWeightedAsTheSpecularModelSays) {
     TinyFrame t;
     t.frame.lights[0].direction = -direction_at(radians(60.0), 0.4);
-    t.material().f0.constant = {0.04, 0.3, 1.0};
+    t.material().base().f0.constant = {0.04, 0.3, 1.0};
     const glm::dvec3 bare = t.shade().diffuse;
     expect_near(bare, glm::dvec3(0.5 / pi));
-    t.material().specular = SpecularModel::blinn_phong;
+    t.material().base().specular = SpecularModel::blinn_phong;
     expect_near(t.shade().diffuse, bare * glm::dvec3(0.96, 0.7, 0.0));
-    t.material().specular = SpecularModel::blinn_phong_exact;
+    t.material().base().specular = SpecularModel::blinn_phong_exact;
     const double kept = 1.0 - 1.0 / 32.0; // 1 - (1 - N.L)^5
     expect_near(t.shade().diffuse, bare * kept * glm::dvec3(0.96, 0.7, 0.0));
 }
@@ -171,8 +171,8 @@ TEST(Rule9, EachModelIsCalled) {
     t.frame.lights[0].direction = -light;
     t.frame.lights[0].power = {1.0, 2.0, 3.0};
     t.material().albedo.constant = rho;
-    t.material().f0.constant = f0;
-    t.material().shininess.constant = glm::dvec3(20.0);
+    t.material().base().f0.constant = f0;
+    t.material().base().shininess.constant = glm::dvec3(20.0);
     t.material().diffuse_shininess.constant = glm::dvec3(5.0); // sigma^2 = 0.4
     const auto diffuse_of = [&](DiffuseModel model) {
         t.material().diffuse = model;
@@ -188,7 +188,7 @@ TEST(Rule9, EachModelIsCalled) {
     expect_near(diffuse_of(DiffuseModel::oren_nayar_simplified_2), oren_nayar_simplified_2(a, rho, 0.4));
     expect_near(diffuse_of(DiffuseModel::oren_nayar_shininess), oren_nayar_shininess(a, rho, 5.0));
     const auto specular_of = [&](SpecularModel model) {
-        t.material().specular = model;
+        t.material().base().specular = model;
         return t.shade().specular / t.frame.lights[0].power;
     };
     expect_near(specular_of(SpecularModel::none), glm::dvec3(0.0));
@@ -270,7 +270,7 @@ TEST(Frames, CountWhatTheRulesCount) {
             frame.planes.at(frame.roles.normal[2], x, y) = 1.0F;
             frame.planes.at(frame.roles.coverage, x, y) = 1.0F;
         }
-        frame.planes.at(frame.materials[0].f0.planes[1], x, 0) = nan;
+        frame.planes.at(frame.materials[0].base().f0.planes[1], x, 0) = nan;
         frame.planes.at(frame.materials[0].albedo.planes[2], x, 1) = 1.5F;
         frame.planes.at(frame.materials[0].albedo.planes[0], x, 1) = -1.5F; // still one pixel
     }

@@ -57,7 +57,7 @@ glm::vec3 reflect_single(const BoundMaterial& m, const Values& v, const glm::vec
     const glm::vec3 h = sum / length;
     const float eh = length2 / (2.0F * length);
     const float lobe = lobe_single(n, h, length, v.n, form);
-    const bool exact = m.specular == SpecularModel::blinn_phong_exact;
+    const bool exact = m.base().specular == SpecularModel::blinn_phong_exact;
     const float norm =
         exact ? (v.n + 2.0F) / (12.5663706F * (2.0F - std::exp2(-0.5F * v.n))) : 0.0397436F * v.n + 0.0856832F;
     const float w = 1.0F - eh;
@@ -87,9 +87,9 @@ PlaneSlab shade_in_single_precision(const Frame& frame, LobeForm form) {
                 continue;
             }
             Values v;
-            v.f0 = glm::clamp(vector_at(frame, m.f0.planes, x, y) / c, 0.0F, 1.0F);
+            v.f0 = glm::clamp(vector_at(frame, m.base().f0.planes, x, y) / c, 0.0F, 1.0F);
             v.albedo = glm::clamp(vector_at(frame, m.albedo.planes, x, y) / c, 0.0F, 1.0F);
-            v.n = std::clamp(frame.planes.at(m.shininess.planes[0], x, y) / c, 0.0F, 65536.0F);
+            v.n = std::clamp(frame.planes.at(m.base().shininess.planes[0], x, y) / c, 0.0F, 65536.0F);
             if (m.diffuse == DiffuseModel::oren_nayar) {
                 v.diffuse_n = std::clamp(frame.planes.at(m.diffuse_shininess.planes[0], x, y) / c, 0.0F, 65536.0F);
             }

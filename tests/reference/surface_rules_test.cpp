@@ -38,10 +38,10 @@ TinyFrame frame_with_every_plane() {
     t.frame.roles.depth = t.plane(7.0F);
     t.frame.roles.coverage = t.plane(0.5F);
     t.frame.roles.material_id = t.plane(0.0F);
-    t.material().specular = SpecularModel::blinn_phong;
+    t.material().base().specular = SpecularModel::blinn_phong;
     t.material().diffuse = DiffuseModel::oren_nayar;
-    t.material().f0 = t.colour({0.02F, 0.02F, 0.02F});
-    t.material().shininess = t.grey(16.0F);
+    t.material().base().f0 = t.colour({0.02F, 0.02F, 0.02F});
+    t.material().base().shininess = t.grey(16.0F);
     t.material().albedo = t.colour({0.2F, 0.2F, 0.2F});
     t.material().diffuse_shininess = t.grey(16.0F);
     BoundMaterial other; // claims id 5, not this pixel
@@ -253,31 +253,31 @@ TEST(Rule6, AveragedPlanesAreDividedByCoverage) {
 
 TEST(Rule6, ScaleAndOffsetComeBeforeTheConversion) {
     TinyFrame t;
-    t.material().specular = SpecularModel::blinn_phong;
+    t.material().base().specular = SpecularModel::blinn_phong;
     t.frame.roles.coverage = t.plane(0.5F);
-    t.material().shininess = t.grey(0.25F); // 0.5 after division
-    t.material().shininess.scale = 0.5;
-    t.material().shininess.offset = 0.25; // 0.5 again
-    t.material().shininess.convert = Conversion::ggx_roughness;
-    EXPECT_DOUBLE_EQ(t.described("shininess"), 30.0); // 2 / 0.5^4 - 2
-    t.material().shininess.convert = Conversion::smoothness;
-    EXPECT_DOUBLE_EQ(t.described("shininess"), 30.0);
-    t.material().shininess.convert = Conversion::oren_nayar_sigma;
-    EXPECT_DOUBLE_EQ(t.described("shininess"), 8.0); // 2 / 0.5^2
-    t.material().shininess.convert = Conversion::none;
-    EXPECT_DOUBLE_EQ(t.described("shininess"), 0.5);
+    t.material().base().shininess = t.grey(0.25F); // 0.5 after division
+    t.material().base().shininess.scale = 0.5;
+    t.material().base().shininess.offset = 0.25; // 0.5 again
+    t.material().base().shininess.convert = Conversion::ggx_roughness;
+    EXPECT_DOUBLE_EQ(t.described("layer1.shininess"), 30.0); // 2 / 0.5^4 - 2
+    t.material().base().shininess.convert = Conversion::smoothness;
+    EXPECT_DOUBLE_EQ(t.described("layer1.shininess"), 30.0);
+    t.material().base().shininess.convert = Conversion::oren_nayar_sigma;
+    EXPECT_DOUBLE_EQ(t.described("layer1.shininess"), 8.0); // 2 / 0.5^2
+    t.material().base().shininess.convert = Conversion::none;
+    EXPECT_DOUBLE_EQ(t.described("layer1.shininess"), 0.5);
 }
 
 TEST(Rule6, ShininessStaysInItsRange) {
     TinyFrame t;
-    t.material().specular = SpecularModel::blinn_phong;
-    t.material().shininess = t.grey(0.0F);
+    t.material().base().specular = SpecularModel::blinn_phong;
+    t.material().base().shininess = t.grey(0.0F);
     const auto shininess = [&](float plane, Conversion convert) {
-        t.set(t.material().shininess.planes[0], plane);
-        t.material().shininess.convert = convert;
+        t.set(t.material().base().shininess.planes[0], plane);
+        t.material().base().shininess.convert = convert;
         EXPECT_FALSE(t.shade().clamped);
         EXPECT_TRUE(std::isfinite(t.red()));
-        return t.described("shininess");
+        return t.described("layer1.shininess");
     };
     EXPECT_EQ(shininess(0.0F, Conversion::ggx_roughness), 65536.0);
     EXPECT_EQ(shininess(0.01F, Conversion::ggx_roughness), 65536.0);
@@ -292,18 +292,18 @@ TEST(Rule6, ShininessStaysInItsRange) {
 
 TEST(Rule6, ReflectancesAreClampedAndCounted) {
     TinyFrame t;
-    t.material().specular = SpecularModel::blinn_phong;
+    t.material().base().specular = SpecularModel::blinn_phong;
     t.material().albedo = t.colour({0.5F, 0.5F, 0.5F});
-    t.material().f0 = t.colour({0.5F, 0.5F, 0.5F});
+    t.material().base().f0 = t.colour({0.5F, 0.5F, 0.5F});
     const auto clamped = [&](const BoundParameter& parameter, float value) {
         t.set(parameter.planes[1], value);
         const bool counted = t.shade().clamped;
-        const double seen = t.described(&parameter == &t.material().f0 ? "f0.G" : "albedo.G");
+        const double seen = t.described(&parameter == &t.material().base().f0 ? "layer1.f0.G" : "albedo.G");
         EXPECT_EQ(seen, std::min(std::max(static_cast<double>(value), 0.0), 1.0));
         t.set(parameter.planes[1], 0.5F);
         return counted;
     };
-    for (const BoundParameter* parameter : {&t.material().f0, &t.material().albedo}) {
+    for (const BoundParameter* parameter : {&t.material().base().f0, &t.material().albedo}) {
         EXPECT_FALSE(clamped(*parameter, 1.0F));
         EXPECT_FALSE(clamped(*parameter, 0.0F));
         EXPECT_FALSE(clamped(*parameter, 1.0009F)); // rounding
@@ -316,7 +316,7 @@ TEST(Rule6, ReflectancesAreClampedAndCounted) {
 
 TEST(Rule6, ParametersThatNoModelUsesAreNotClamped) {
     TinyFrame t;
-    t.material().f0 = t.grey(7.0F); // specular = none
+    t.material().base().f0 = t.grey(7.0F); // specular = none
     EXPECT_FALSE(t.shade().clamped);
 }
 

@@ -19,7 +19,7 @@ class DefaultTolerance : public testing::TestWithParam<Case> {
   protected:
     DefaultTolerance()
         : frame_(random_frame(256, 256, GetParam().specular, GetParam().diffuse, 7)),
-          tolerance_(default_tolerance(GetParam().specular, GetParam().diffuse)), image_(shade(frame_, {}, 2)),
+          tolerance_(default_tolerance(frame_.materials.front())), image_(shade(frame_, {}, 2)),
           scale_(rounding_scale(frame_, 2)) {}
 
     [[nodiscard]] bool accepts(const PlaneSlab& device) const {
@@ -50,9 +50,9 @@ TEST_P(DefaultTolerance, RefusesFiveRelativeTolerances) {
 }
 
 TEST_P(DefaultTolerance, RefusesAnotherModel) {
-    frame_.materials.front().specular = GetParam().specular == SpecularModel::blinn_phong
-                                            ? SpecularModel::blinn_phong_exact
-                                            : SpecularModel::blinn_phong;
+    frame_.materials.front().base().specular = GetParam().specular == SpecularModel::blinn_phong
+                                                   ? SpecularModel::blinn_phong_exact
+                                                   : SpecularModel::blinn_phong;
     EXPECT_FALSE(accepts(shade_in_single_precision(frame_, LobeForm::accurate)));
 }
 
@@ -76,9 +76,9 @@ TEST(RoundingScale, GrowsWithTheExponentAndTowardsGrazing) {
         light.direction = {std::cos(elevation), 0.0, -std::sin(elevation)};
         frame.lights = {light};
         BoundMaterial material;
-        material.specular = SpecularModel::blinn_phong_exact;
-        material.f0.constant = glm::dvec3(1.0);
-        material.shininess.constant = glm::dvec3(static_cast<double>(n));
+        material.base().specular = SpecularModel::blinn_phong_exact;
+        material.base().f0.constant = glm::dvec3(1.0);
+        material.base().shininess.constant = glm::dvec3(static_cast<double>(n));
         frame.materials = {material};
         return rounding_scale(frame, 1).shift[0][0] / shade(frame, {}, 1).planes[0][0];
     };
