@@ -31,7 +31,10 @@ TangentFrame tangent_frame(const glm::dvec3& t, const glm::dvec3& normal) {
 }
 
 double anisotropic_exponent(const Angles& angles, const TangentFrame& frame, double n_u, double n_v) {
-    // The sum of both squares is 1 - (N.H)^2 without its cancellation.
+    // The sum of both squares is 1 - (N.H)^2 without its cancellation. At the very centre N.H^e is 1 for any e.
+    if (angles.sin2_nh < 1e-12) {
+        return 0.5 * (n_u + n_v);
+    }
     const double th = glm::dot(frame.tangent, angles.half);
     const double bh = glm::dot(frame.bitangent, angles.half);
     return (n_u * th * th + n_v * bh * bh) / std::max(th * th + bh * bh, 1e-12);

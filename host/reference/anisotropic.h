@@ -19,7 +19,7 @@ struct TangentFrame {
 /// JCGT 2017).
 [[nodiscard]] TangentFrame tangent_frame(const glm::dvec3& t, const glm::dvec3& normal);
 
-/// e = (n_u (T.H)^2 + n_v (B.H)^2) / max((T.H)^2 + (B.H)^2, 1e-12).
+/// e = (n_u (T.H)^2 + n_v (B.H)^2) / max((T.H)^2 + (B.H)^2, 1e-12); (n_u + n_v)/2 where 1 - (N.H)^2 < 1e-12.
 [[nodiscard]] double anisotropic_exponent(const Angles& angles, const TangentFrame& frame, double n_u, double n_v);
 
 /// Normaliser in closed form; that of section 1 for n_u = n_v. Both >= 0.

@@ -42,7 +42,9 @@ Reflected reflect(const MaterialValues& material, const Angles& angles) {
     }
     const StackWeights weights = stack_weights(material, angles);
     r.diffuse = diffuse_part(material, angles) * weights.diffuse;
-    r.specular = weights.specular;
+    for (std::size_t k = 0; k < material.layers().size(); ++k) {
+        r.specular += lobe_f_cos(material.layers()[k], material.fresnel, angles) * weights.specular[k];
+    }
     return r;
 }
 

@@ -142,26 +142,26 @@ glm::dvec3 layer_absorption(const LayerValues& layer, AbsorptionModel model, con
 
 StackWeights stack_weights(const MaterialValues& material, const Angles& angles) {
     const bool exact = material.fresnel == FresnelModel::exact;
+    const std::span<const LayerValues> layers = material.layers();
+    const std::size_t base = layers.size() - 1;
     StackWeights weights;
     glm::dvec3 to_specular(1.0); // prod (1 - F_j)(1 - r_j), or prod (1 - F_j)^2
     glm::dvec3 a(1.0);           // prod A_j
     glm::dvec3 u(1.0);           // U_k
-    for (const LayerValues& layer : material.layers()) {
-        const Interface& interface = layer.interface;
+    for (std::size_t k = 0; k < base; ++k) {
+        const LayerValues& layer = layers[k];
+        const glm::dvec3 r = layer.interface.r;
         const glm::dvec3 f = interface_fresnel(layer, material.fresnel, angles.eh);
-        weights.specular += lobe_f_cos(layer, material.fresnel, angles) * f * to_specular * a;
-        if (&layer == &material.base()) {
-            weights.diffuse *= exact ? 1.0 - f : base_diffuse_weight(layer, u, angles);
-            break;
-        }
-        const glm::dvec3 entering = 1.0 - f;
-        const glm::dvec3 leaving = exact ? 1.0 - f : 1.0 - interface.r;
-        to_specular *= entering * leaving;
-        weights.diffuse *= exact ? entering * leaving : select(interface.outer, entering, 1.0 - interface.r * u);
-        u *= 1.0 - interface.r;
+        weights.specular[k] = f * to_specular * a;
+        const glm::dvec3 through = (1.0 - f) * (exact ? 1.0 - f : 1.0 - r);
+        to_specular *= through;
+        weights.diffuse *= exact ? through : select(layer.interface.outer, 1.0 - f, 1.0 - r * u);
+        u *= 1.0 - r;
         a *= layer_absorption(layer, material.absorption, angles);
     }
-    weights.diffuse *= a;
+    const glm::dvec3 f = interface_fresnel(layers[base], material.fresnel, angles.eh);
+    weights.specular[base] = f * to_specular * a;
+    weights.diffuse *= a * (exact ? 1.0 - f : base_diffuse_weight(layers[base], u, angles));
     return weights;
 }
 

@@ -47,6 +47,8 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
+
 namespace clshade::reference {
 
 /// Fills every layer's `interface` from lobes, f0, index and metal.
@@ -61,11 +63,12 @@ void find_interfaces(MaterialValues& material);
 /// A of a layer's medium.
 [[nodiscard]] glm::dvec3 layer_absorption(const LayerValues& layer, AbsorptionModel model, const Angles& angles);
 
-/// What reaches the diffuse part of the base and comes back, and the sum of f_k N.L. Needs find_interfaces and N.L > 0.
+/// What interfaces and media leave of every part.
 struct StackWeights {
-    glm::dvec3 diffuse{1.0};
-    glm::dvec3 specular{0.0};
+    std::array<glm::dvec3, most_layers> specular{}; ///< of layer k's lobe: F_k, the interfaces above and prod A_j
+    glm::dvec3 diffuse{1.0};                        ///< of the base's diffuse part
 };
+/// Needs find_interfaces and N.L > 0.
 [[nodiscard]] StackWeights stack_weights(const MaterialValues& material, const Angles& angles);
 
 } // namespace clshade::reference

@@ -4,6 +4,7 @@
 #include "host/reference/diffuse.h"
 #include "host/reference/fresnel.h"
 #include "tests/reference/directions.h"
+#include "tests/reference/vector_evaluators.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,7 +19,6 @@ namespace clshade::reference {
 namespace {
 
 using nlohmann::json;
-using Outputs = std::map<std::string, double>; // a single number has the name ""
 
 Angles angles_of(const json& in) {
     return vector_angles(in.at("theta_l_deg"), in.at("theta_e_deg"), in.at("dphi_deg"));
@@ -49,8 +49,8 @@ Outputs oren_nayar_output(const json& in, const char* parameter, Model model) {
     return {{"", model(a, glm::dvec3(in.at("rho").get<double>()), in.at(parameter).get<double>()).x}};
 }
 
-const std::map<std::string, std::function<Outputs(const json&)>>& evaluators() {
-    static const std::map<std::string, std::function<Outputs(const json&)>> table{
+Evaluators single_layer_evaluators() {
+    return {
         {"norm_exact",
          [](const json& in) {
              return Outputs{{"", normaliser_exact(in.at("n"))}};
@@ -96,12 +96,23 @@ const std::map<std::string, std::function<Outputs(const json&)>>& evaluators() {
                  {"A", shininess_a(shi)}, {"B", shininess_b(shi)}, {"A_improved", improved_a(shi)}, {"sigma", sigma}};
          }},
     };
+}
+
+const Evaluators& evaluators() {
+    static const Evaluators table = [] {
+        Evaluators all = single_layer_evaluators();
+        all.merge(layer_evaluators());
+        return all;
+    }();
     return table;
 }
 
 Outputs expected_outputs(const json& output) {
     if (output.is_number()) {
         return {{"", output.get<double>()}};
+    }
+    if (output.is_array()) {
+        return {{"0", output.at(0)}, {"1", output.at(1)}, {"2", output.at(2)}};
     }
     return output.get<Outputs>();
 }
@@ -146,7 +157,17 @@ TEST(Vectors, FullPrecision) {
                                               {"oren_nayar_qualitative", 4},
                                               {"oren_nayar_shininess", 5},
                                               {"oren_nayar_improved", 4},
-                                              {"oren_nayar_coefficients", 3}};
+                                              {"oren_nayar_coefficients", 3},
+                                              {"aniso", 3},
+                                              {"fresnel_conductor", 3},
+                                              {"cmf_fit_xyz", 2},
+                                              {"spectral_rgb", 3},
+                                              {"fresnel_dielectric", 3},
+                                              {"f_bottom_exact", 3},
+                                              {"f_bottom_const", 2},
+                                              {"absorption", 3},
+                                              {"dual_layer", 10},
+                                              {"skin_layered_oren_nayar", 3}};
     EXPECT_EQ(check_file("vectors.json"), expected);
 }
 
@@ -157,7 +178,7 @@ TEST(Vectors, FurtherRowsOfTheTables) {
     for (const auto& [model, count] : checked) {
         rows += count;
     }
-    EXPECT_EQ(rows, 38);
+    EXPECT_EQ(rows, 72);
 }
 
 } // namespace
