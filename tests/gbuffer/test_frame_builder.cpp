@@ -3,6 +3,7 @@
 #include "host/gbuffer/camera.h"
 #include "host/gbuffer/frame_builder.h"
 #include "tests/gbuffer/layouts.h"
+#include "tests/gbuffer/plans.h"
 #include "tests/gbuffer/views.h"
 
 #include <gmock/gmock.h>
@@ -17,6 +18,7 @@ namespace {
 
 using testing::add_channel;
 using ::testing::AllOf;
+using testing::automatic_scene;
 using testing::blender_layout;
 using testing::camera_at;
 using ::testing::Contains;
@@ -26,40 +28,12 @@ using ::testing::IsEmpty;
 using testing::layer;
 using testing::layout_of;
 using ::testing::Not;
+using testing::plain_scene;
+using testing::plan_error;
+using testing::plan_of;
+using testing::plane_of;
 
 using Names = std::vector<std::string>;
-
-/// A scene of one material, without anything automatic, with a camera.
-Scene plain_scene() {
-    Scene scene;
-    scene.materials.emplace_back();
-    scene.camera = camera_at({0, -5, 0}, {0, 0, 0}, Lens::fov_y, 0.7);
-    return scene;
-}
-
-Scene automatic_scene() {
-    Scene scene = plain_scene();
-    scene.automatic_material = true;
-    scene.automatic = {true, true, true};
-    return scene;
-}
-
-FramePlan plan_of(const ImageLayout& layout, const Scene& scene, const Names& keep = {}) {
-    return plan_frame(layout, assign_roles(layout, scene.gbuffer, ""), scene, keep);
-}
-
-std::string plan_error(const ImageLayout& layout, const Scene& scene, const Names& keep = {}) {
-    try {
-        (void)plan_of(layout, scene, keep);
-    } catch (const UsageError& error) {
-        return error.what();
-    }
-    return "no error";
-}
-
-std::string plane_of(const FramePlan& plan, PlaneIndex plane) {
-    return plane == no_plane ? "none" : plan.frame.plane_names[static_cast<std::size_t>(plane)];
-}
 
 TEST(PlanFrame, ReadsOnlyWhatConstantsLeave) {
     const FramePlan plan = plan_of(blender_layout(), plain_scene());
@@ -73,8 +47,8 @@ TEST(PlanFrame, ReadsOnlyWhatConstantsLeave) {
     EXPECT_EQ(plane_of(plan, plan.frame.roles.depth), "ViewLayer.Depth.Z");
     EXPECT_EQ(plane_of(plan, plan.frame.roles.coverage), "ViewLayer.UV.A");
     EXPECT_EQ(plan.frame.roles.material_id, no_plane);
-    EXPECT_TRUE(plan.frame.materials[0].f0.is_constant());
-    EXPECT_EQ(plan.frame.materials[0].shininess.constant, glm::dvec3(64.0));
+    EXPECT_TRUE(plan.frame.materials[0].base().f0.is_constant());
+    EXPECT_EQ(plan.frame.materials[0].base().shininess.constant, glm::dvec3(64.0));
     EXPECT_FALSE(plan.frame.has_emission);
     EXPECT_FALSE(plan.recover_camera);
     EXPECT_EQ(plan.frame.file, "picture.exr");
@@ -84,33 +58,33 @@ TEST(PlanFrame, AutomaticMaterialFollowsTheRoles) {
     const FramePlan plan = plan_of(blender_layout(), automatic_scene());
     const BoundMaterial& material = plan.frame.materials[0];
     EXPECT_EQ(plane_of(plan, material.albedo.planes[2]), "ViewLayer.DiffCol.B");
-    EXPECT_EQ(plane_of(plan, material.f0.planes[0]), "ViewLayer.f0.R");
-    EXPECT_EQ(plane_of(plan, material.shininess.planes[0]), "ViewLayer.roughness.X");
-    EXPECT_TRUE(material.shininess.is_grey());
-    EXPECT_EQ(material.shininess.convert, Conversion::ggx_roughness);
+    EXPECT_EQ(plane_of(plan, material.base().f0.planes[0]), "ViewLayer.f0.R");
+    EXPECT_EQ(plane_of(plan, material.base().shininess.planes[0]), "ViewLayer.roughness.X");
+    EXPECT_TRUE(material.base().shininess.is_grey());
+    EXPECT_EQ(material.base().shininess.convert, Conversion::ggx_roughness);
     EXPECT_EQ(material.albedo.convert, Conversion::none);
     EXPECT_TRUE(material.albedo.averaged);
-    EXPECT_TRUE(material.shininess.averaged);
+    EXPECT_TRUE(material.base().shininess.averaged);
 }
 
 TEST(PlanFrame, AutomaticMaterialFallsBack) {
     const ImageLayout with_shininess = layout_of({layer("N", "XYZ"), layer("shininess", "V")});
     const FramePlan plan = plan_of(with_shininess, automatic_scene());
     const BoundMaterial& material = plan.frame.materials[0];
-    EXPECT_EQ(plane_of(plan, material.shininess.planes[0]), "shininess.V");
-    EXPECT_EQ(material.shininess.convert, Conversion::none);
+    EXPECT_EQ(plane_of(plan, material.base().shininess.planes[0]), "shininess.V");
+    EXPECT_EQ(material.base().shininess.convert, Conversion::none);
     EXPECT_EQ(material.albedo.constant, glm::dvec3(0.5));
-    EXPECT_EQ(material.f0.constant, glm::dvec3(0.04));
+    EXPECT_EQ(material.base().f0.constant, glm::dvec3(0.04));
     const FramePlan bare = plan_of(layout_of({layer("N", "XYZ")}), automatic_scene());
-    EXPECT_EQ(bare.frame.materials[0].shininess.constant, glm::dvec3(64.0));
+    EXPECT_EQ(bare.frame.materials[0].base().shininess.constant, glm::dvec3(64.0));
     EXPECT_EQ(bare.channels.size(), 3U);
 }
 
 TEST(PlanFrame, UnusedParametersAreNotRead) {
     Scene scene = plain_scene();
     Material& material = scene.materials[0];
-    material.specular.f0 = Parameter::from("f0");
-    material.specular.shininess = Parameter::from("roughness", Conversion::ggx_roughness);
+    material.base().f0 = Parameter::from("f0");
+    material.base().shininess = Parameter::from("roughness", Conversion::ggx_roughness);
     material.diffuse.albedo = Parameter::from("albedo");
     material.diffuse.shininess = Parameter::from("metallic");
     const auto reads = [&] { return plan_of(blender_layout(), scene).frame.plane_names; };
@@ -118,7 +92,7 @@ TEST(PlanFrame, UnusedParametersAreNotRead) {
                                Contains("ViewLayer.DiffCol.R"), Not(Contains("ViewLayer.metallic.X"))));
     material.diffuse.model = DiffuseModel::oren_nayar;
     EXPECT_THAT(reads(), Contains("ViewLayer.metallic.X"));
-    material.specular.model = SpecularModel::none;
+    material.base().model = SpecularModel::none;
     EXPECT_THAT(reads(), AllOf(Not(Contains("ViewLayer.f0.R")), Not(Contains("ViewLayer.roughness.X"))));
     material.diffuse.shininess.reset(); // now the specular shininess stands in, though there is no lobe
     const FramePlan plan = plan_of(blender_layout(), scene);
@@ -130,10 +104,10 @@ TEST(PlanFrame, UnusedParametersAreNotRead) {
 
 TEST(PlanFrame, AChannelIsReadOnceHoweverOftenUsed) {
     Scene scene = plain_scene();
-    scene.materials[0].specular.f0 = Parameter::from("f0");
+    scene.materials[0].base().f0 = Parameter::from("f0");
     scene.materials[0].diffuse.albedo = Parameter::from("f0");
     const FramePlan plan = plan_of(blender_layout(), scene);
-    EXPECT_EQ(plan.frame.materials[0].f0.planes, plan.frame.materials[0].albedo.planes);
+    EXPECT_EQ(plan.frame.materials[0].base().f0.planes, plan.frame.materials[0].albedo.planes);
     EXPECT_EQ(std::count(plan.frame.plane_names.begin(), plan.frame.plane_names.end(), "ViewLayer.f0.G"), 1);
 }
 
@@ -142,9 +116,9 @@ TEST(PlanFrame, ScaleOffsetAndConversionGoWithThePlane) {
     Parameter shininess = Parameter::from("roughness", Conversion::smoothness);
     shininess.scale = 2.0;
     shininess.offset = 0.25;
-    scene.materials[0].specular.shininess = shininess;
+    scene.materials[0].base().shininess = shininess;
     const FramePlan plan = plan_of(blender_layout(), scene);
-    const BoundParameter& bound = plan.frame.materials[0].shininess;
+    const BoundParameter& bound = plan.frame.materials[0].base().shininess;
     EXPECT_EQ(bound.scale, 2.0);
     EXPECT_EQ(bound.offset, 0.25);
     EXPECT_EQ(bound.convert, Conversion::smoothness);
@@ -155,19 +129,19 @@ TEST(PlanFrame, AConstantIsConvertedAtOnce) {
     Parameter shininess = Parameter::of(0.25);
     shininess.scale = 2.0;
     shininess.convert = Conversion::ggx_roughness; // r = 0.5: 2 / 0.0625 - 2
-    scene.materials[0].specular.shininess = shininess;
-    const BoundParameter bound = plan_of(blender_layout(), scene).frame.materials[0].shininess;
+    scene.materials[0].base().shininess = shininess;
+    const BoundParameter bound = plan_of(blender_layout(), scene).frame.materials[0].base().shininess;
     EXPECT_DOUBLE_EQ(bound.constant.x, 30.0);
     EXPECT_EQ(bound.convert, Conversion::none);
     EXPECT_EQ(bound.scale, 1.0);
     shininess.constant = glm::dvec3(0.0);
-    scene.materials[0].specular.shininess = shininess;
-    EXPECT_GE(plan_of(blender_layout(), scene).frame.materials[0].shininess.constant.x, 65536.0);
+    scene.materials[0].base().shininess = shininess;
+    EXPECT_GE(plan_of(blender_layout(), scene).frame.materials[0].base().shininess.constant.x, 65536.0);
 }
 
 TEST(PlanFrame, AScalarTakesOneChannel) {
     Scene scene = plain_scene();
-    scene.materials[0].specular.shininess = Parameter::from("f0");
+    scene.materials[0].base().shininess = Parameter::from("f0");
     EXPECT_THAT(plan_error(blender_layout(), scene), AllOf(HasSubstr("material 'default', specular shininess"),
                                                            HasSubstr("3 channels"), HasSubstr("ViewLayer.f0.R")));
 }
