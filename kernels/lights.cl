@@ -16,6 +16,7 @@ typedef struct {
     real two_eh;   // 2 E.H = |L + E|
     real nh2;      // (N.H)^2
     real sin2_nh;  // 1 - (N.H)^2 = |H - (N.H) N|^2, without cancellation near the highlight's centre
+    vec3 h;        // L + E, not of unit length
     real ratio;    // min(1, N.L / N.E): N.L / max(N.L, N.E)
 } incidence;
 
@@ -36,6 +37,7 @@ static inline incidence make_incidence(surface s, vec3 l, real strength) {
     const real nh = larger(along, splat(SMALLEST_NH));
     // The part of h across N. What rounding does to `along` moves it along N, at a right angle to what is wanted.
     const vec3 across = make_vec3(fma(-along, s.n.x, h.x), fma(-along, s.n.y, h.y), fma(-along, s.n.z, h.z));
+    i.h = h;
     i.two_eh = hh * inverse_h;
     i.nh2 = nh * nh * inverse_hh;
     i.sin2_nh = dot3(across, across) * inverse_hh;

@@ -73,6 +73,11 @@ static inline real inverse_sqrt(real x) {
 #endif
 }
 
+// sqrt(x), x >= 0.
+static inline real square_root(real x) {
+    return x * inverse_sqrt(larger(x, splat(1e-30f)));
+}
+
 // 1 / x for finite x other than 0.
 static inline real inverse(real x) {
 #ifdef CLSHADE_AVX512_ESTIMATES

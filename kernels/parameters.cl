@@ -13,8 +13,13 @@ static inline real averaged(real value, surface s) {
     return value * s.unpremultiply;
 }
 
-static inline real scaled(real value, __constant const ParameterConstants* p) {
-    return fma(value, splat(p->scale), splat(p->offset));
+static inline real scaled(real value, float scale, float offset) {
+    return fma(value, splat(scale), splat(offset));
+}
+
+// A Cryptomatte id is a hash in the bits of a float (pixel rule 7).
+static inline mask has_name(real id, uint bits) {
+    return AS_INTEGER(id) == (integer)((int)bits);
 }
 
 // Ids are whole numbers in float planes (pixel rule 7).
@@ -43,6 +48,13 @@ static inline real shininess_from_oren_nayar_sigma(real sigma) {
     return 2.0f / (sigma * sigma);
 }
 
+// F0 = ((n - 1) / (n + 1))^2 of an index of refraction; below 1 counts as 1.
+static inline real f0_from_index(real n) {
+    const real index = larger(n, splat(1.0f));
+    const real amplitude = (index - 1.0f) / (index + 1.0f);
+    return amplitude * amplitude;
+}
+
 static inline real clamp_shininess(real n) {
     return smaller(larger(n, splat(0.0f)), splat(LARGEST_SHININESS));
 }
@@ -62,8 +74,9 @@ static inline mask outside_unit(rgb v) {
     return (low < splat(-CLAMP_SLACK)) | (high > splat(1.0f + CLAMP_SLACK));
 }
 
-static inline rgb constant_rgb(__constant const ParameterConstants* p) {
-    return make_rgb(splat(p->value[0]), splat(p->value[1]), splat(p->value[2]));
+// Where an absorption is negative by more than rounding.
+static inline mask below_zero(rgb v) {
+    return smaller(v.r, smaller(v.g, v.b)) < splat(-CLAMP_SLACK);
 }
 
 #endif

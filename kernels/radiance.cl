@@ -14,6 +14,7 @@ typedef struct {
 #endif
     mask clamped;       // a parameter was out of range
     mask fractional_id; // the material id is no whole number
+    mask no_tangent;    // an anisotropic material without a usable tangent
 } radiance;
 
 // The planes of the result at the pixels at hand.
@@ -34,6 +35,19 @@ static inline radiance no_radiance(void) {
 #endif
     sum.clamped = FALSE_MASK;
     sum.fractional_id = FALSE_MASK;
+    sum.no_tangent = FALSE_MASK;
+    return sum;
+}
+
+static inline radiance make_radiance(rgb diffuse, rgb specular) {
+    radiance sum = no_radiance();
+    sum.total = add_rgb(diffuse, specular);
+#if OUTPUT_DIFFUSE >= 0
+    sum.diffuse = diffuse;
+#endif
+#if OUTPUT_SPECULAR >= 0
+    sum.specular = specular;
+#endif
     return sum;
 }
 
@@ -48,6 +62,7 @@ static inline radiance choose_radiance(mask m, radiance a, radiance b) {
 #endif
     sum.clamped = (m & a.clamped) | (negated(m) & b.clamped);
     sum.fractional_id = (m & a.fractional_id) | (negated(m) & b.fractional_id);
+    sum.no_tangent = (m & a.no_tangent) | (negated(m) & b.no_tangent);
     return sum;
 }
 
@@ -66,45 +81,15 @@ static inline mask is_finite_rgb(rgb v) {
     return (v.r + v.g + v.b) * 0.0f == splat(0.0f);
 }
 
-// Sums over the lights of E_0 times what does not depend on the material's colours. Fresnel is linear in F0 and the
-// diffuse part in the albedo, so the colours are multiplied in once, after the loop, and take no registers inside it.
-typedef struct {
-    rgb diffuse;  // of pi f_cos / albedo of the diffuse part
-    rgb square;   // of its part in albedo^2 (full Oren-Nayar only)
-    rgb specular; // of the lobe, without normaliser and Fresnel
-    rgb weighted; // of the lobe times the Fresnel weight
-} light_sums;
-
-static inline light_sums no_light(void) {
-    const rgb zero = grey(splat(0.0f));
-    const light_sums sums = {zero, zero, zero, zero};
-    return sums;
-}
-
 static inline rgb irradiance(__global const LightConstants* light, incidence i) {
     return make_rgb(light->power[0] * i.strength, light->power[1] * i.strength, light->power[2] * i.strength);
 }
 
+// Materials add up E_0 times what does not depend on their colours and multiply the colours in after the loop over the
+// lights: Fresnel is linear in F0 and the diffuse part in the albedo, so neither takes registers inside it.
 // sum + E_0 share
 static inline rgb add_share(rgb sum, rgb e0, real share) {
     return multiply_add_rgb(e0, grey(share), sum);
-}
-
-// colour (diffuse + albedo square) + normaliser (F0 specular + (1 - F0) weighted); colour = albedo/pi times what
-// the specular part leaves.
-static inline radiance reflect(light_sums sums, rgb colour, rgb albedo, rgb f0, real normaliser) {
-    const rgb diffuse = multiply_rgb(colour, multiply_add_rgb(albedo, sums.square, sums.diffuse));
-    const rgb specular =
-        scale_rgb(multiply_add_rgb(f0, sums.specular, multiply_rgb(complement(f0), sums.weighted)), normaliser);
-    radiance sum = no_radiance();
-    sum.total = add_rgb(diffuse, specular);
-#if OUTPUT_DIFFUSE >= 0
-    sum.diffuse = diffuse;
-#endif
-#if OUTPUT_SPECULAR >= 0
-    sum.specular = specular;
-#endif
-    return sum;
 }
 
 #if OUTPUT_LIGHTS >= 0

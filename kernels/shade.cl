@@ -13,14 +13,14 @@
 // counts: COUNT_SIZE counters, see types.h.
 __kernel void shade(__global const float* planes, ulong plane_stride, __global float* result, ulong result_stride,
                     ulong first_pixel, __constant const FrameConstants* frame, __global const LightConstants* lights,
-                    __constant const MaterialConstants* materials, __global uint* counts) {
+                    __global uint* counts) {
     const ulong pixel = (ulong)get_global_id(0) * LANES;
     const inputs in = {planes, plane_stride, pixel};
     const results out = {result, result_stride, pixel};
 
     const surface s = load_surface(in, first_pixel, frame);
-    const radiance lit = shade_materials(in, s, out, materials, lights, frame->light_count);
-    const radiance sum = add_emission(lit, in, s, &frame->emission);
+    const radiance lit = shade_materials(in, s, out, frame, lights);
+    const radiance sum = add_emission(lit, in, s);
 
     const rgb total = scale_rgb(sum.total, s.coverage);
     const mask finite = is_finite_rgb(total);
@@ -37,7 +37,8 @@ __kernel void shade(__global const float* planes, ulong plane_stride, __global f
     const mask nonfinite = s.nonfinite | (s.alive & negated(finite));
     const mask clamped = s.alive & sum.clamped;
     const mask fractional = s.alive & sum.fractional_id;
-    if (any_lane(nonfinite | clamped | fractional)) {
+    const mask no_tangent = s.alive & sum.no_tangent;
+    if (any_lane(nonfinite | clamped | fractional | no_tangent)) {
 #if OUTPUT_LIGHTS >= 0
         for (int k = 0; k < frame->light_count; ++k) {
             clear_light(out, k, nonfinite);
@@ -46,5 +47,6 @@ __kernel void shade(__global const float* planes, ulong plane_stride, __global f
         atomic_add(counts + COUNT_NONFINITE, count_lanes(nonfinite));
         atomic_add(counts + COUNT_CLAMPED, count_lanes(clamped));
         atomic_add(counts + COUNT_FRACTIONAL_IDS, count_lanes(fractional));
+        atomic_add(counts + COUNT_NO_TANGENT, count_lanes(no_tangent));
     }
 }

@@ -93,9 +93,10 @@ static inline vec3 position_from_depth(vec3 ray, real depth, pixel_centre centre
 }
 #endif
 
-// The normal of the planes in world space, not yet of unit length.
-static inline vec3 load_normal(inputs in, real unpremultiply, __constant const FrameConstants* frame) {
-    vec3 n = make_vec3(load_input(in, PLANE_NORMAL_X), load_input(in, PLANE_NORMAL_Y), load_input(in, PLANE_NORMAL_Z));
+// A direction of three planes in world space, not of unit length, encoded as the normal is.
+static inline vec3 load_direction(inputs in, int x, int y, int z, real unpremultiply,
+                                  __constant const FrameConstants* frame) {
+    vec3 n = make_vec3(load_input(in, x), load_input(in, y), load_input(in, z));
 #if NORMAL_IS_UNORM
     n = make_vec3(fma(n.x * unpremultiply, splat(2.0f), splat(-1.0f)),
                   fma(n.y * unpremultiply, splat(2.0f), splat(-1.0f)),
@@ -134,7 +135,7 @@ static inline surface load_surface(inputs in, ulong first_pixel, __constant cons
 #endif
 
     // Normal.
-    const vec3 raw = load_normal(in, s.unpremultiply, frame);
+    const vec3 raw = load_direction(in, PLANE_NORMAL_X, PLANE_NORMAL_Y, PLANE_NORMAL_Z, s.unpremultiply, frame);
     const real length2 = dot3(raw, raw);
     s.n = scale3(raw, inverse_sqrt(length2));
 

@@ -22,13 +22,6 @@ typedef struct LightConstants {
     float power[4]; /* distant: irradiance E_0; point, spot: intensity, E_0 = power / distance^2 */
 } LightConstants;
 
-typedef struct ParameterConstants {
-    float value[4];
-    float scale; /* a plane's value is scale v + offset before conversion */
-    float offset;
-    float unused[2];
-} ParameterConstants;
-
 typedef struct FrameConstants {
     float eye_hi[4];
     float eye_lo[4];
@@ -40,23 +33,16 @@ typedef struct FrameConstants {
     float direction[4]; /* likewise; direction . view_axis = 1 */
     float direction_dx[4];
     float direction_dy[4];
-    ParameterConstants emission;
     int light_count;
     int pitch; /* floats from one row of pixels to the next */
     int unused[2];
 } FrameConstants;
 
-typedef struct MaterialConstants {
-    ParameterConstants f0;
-    ParameterConstants shininess;
-    ParameterConstants albedo;
-    ParameterConstants diffuse_shininess;
-} MaterialConstants;
-
 /* Counters written by the kernel, in this order. */
 #define COUNT_NONFINITE 0
 #define COUNT_CLAMPED 1
 #define COUNT_FRACTIONAL_IDS 2
+#define COUNT_NO_TANGENT 3
 #define COUNT_SIZE 4
 
 #endif

@@ -70,6 +70,19 @@ static inline rgb larger_rgb(rgb a, float limit) {
     return make_rgb(larger(a.r, splat(limit)), larger(a.g, splat(limit)), larger(a.b, splat(limit)));
 }
 
+static inline rgb subtract_rgb(rgb a, rgb b) {
+    return make_rgb(a.r - b.r, a.g - b.g, a.b - b.b);
+}
+
+static inline rgb square_root_rgb(rgb a) {
+    return make_rgb(square_root(a.r), square_root(a.g), square_root(a.b));
+}
+
+static inline rgb clamp_rgb(rgb a, float low, float high) {
+    return make_rgb(smaller(larger(a.r, splat(low)), splat(high)), smaller(larger(a.g, splat(low)), splat(high)),
+                    smaller(larger(a.b, splat(low)), splat(high)));
+}
+
 // 1 - a, per channel.
 static inline rgb complement(rgb a) {
     return make_rgb(1.0f - a.r, 1.0f - a.g, 1.0f - a.b);

@@ -12,12 +12,8 @@ namespace clshade {
 // The layout both compilers must agree on: 4-byte members only, no padding.
 static_assert(std::is_trivially_copyable_v<LightConstants> && sizeof(LightConstants) == 80);
 static_assert(offsetof(LightConstants, direction) == 16 && offsetof(LightConstants, power) == 64);
-static_assert(std::is_trivially_copyable_v<ParameterConstants> && sizeof(ParameterConstants) == 32);
-static_assert(offsetof(ParameterConstants, scale) == 16);
-static_assert(std::is_trivially_copyable_v<FrameConstants> && sizeof(FrameConstants) == 240);
-static_assert(offsetof(FrameConstants, camera_to_world) == 48 && offsetof(FrameConstants, emission) == 192 &&
-              offsetof(FrameConstants, light_count) == 224);
-static_assert(std::is_trivially_copyable_v<MaterialConstants> && sizeof(MaterialConstants) == 128);
+static_assert(std::is_trivially_copyable_v<FrameConstants> && sizeof(FrameConstants) == 208);
+static_assert(offsetof(FrameConstants, camera_to_world) == 48 && offsetof(FrameConstants, light_count) == 192);
 
 namespace {
 
@@ -37,14 +33,6 @@ void put_split(float (&hi)[4], float (&lo)[4], const glm::dvec3& value) {
         hi[i] = static_cast<float>(high);
         lo[i] = static_cast<float>(value[i] - high);
     }
-}
-
-ParameterConstants parameter_constants(const BoundParameter& parameter) {
-    ParameterConstants constants{};
-    put(constants.value, parameter.constant);
-    constants.scale = static_cast<float>(parameter.scale);
-    constants.offset = static_cast<float>(parameter.offset);
-    return constants;
 }
 
 int kernel_type(LightType type) {
@@ -92,7 +80,6 @@ FrameConstants frame_constants(const Frame& frame) {
     put(constants.direction, view.direction);
     put(constants.direction_dx, view.direction_dx);
     put(constants.direction_dy, view.direction_dy);
-    constants.emission = parameter_constants(frame.emission);
     constants.light_count = static_cast<int>(frame.lights.size());
     constants.pitch = frame.planes.pitch();
     return constants;
@@ -105,17 +92,6 @@ std::vector<LightConstants> light_constants(const Frame& frame) {
     }
     if (constants.empty()) {
         constants.emplace_back();
-    }
-    return constants;
-}
-
-std::vector<MaterialConstants> material_constants(const Frame& frame) {
-    std::vector<MaterialConstants> constants;
-    for (const BoundMaterial& material : frame.materials) {
-        constants.push_back({.f0 = parameter_constants(material.f0),
-                             .shininess = parameter_constants(material.shininess),
-                             .albedo = parameter_constants(material.albedo),
-                             .diffuse_shininess = parameter_constants(material.diffuse_shininess)});
     }
     return constants;
 }

@@ -12,7 +12,5 @@ namespace clshade {
 /// One entry per light of the frame; one unused entry for a frame without lights, since no device takes an empty
 /// buffer.
 [[nodiscard]] std::vector<LightConstants> light_constants(const Frame& frame);
-/// One entry per material of the frame.
-[[nodiscard]] std::vector<MaterialConstants> material_constants(const Frame& frame);
 
 } // namespace clshade

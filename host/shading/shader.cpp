@@ -2,7 +2,8 @@
 
 #include "host/base/error.h"
 #include "host/shading/constants.h"
-#include "host/shading/generated_source.h"
+#include "host/shading/frame_layout.h"
+#include "host/shading/material_code.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +43,6 @@ Buffer constant_buffer(Device& device, std::span<const T> values) {
 struct Constants {
     Buffer frame;
     Buffer lights;
-    Buffer materials;
     Buffer counts;
 
     Constants(Device& device, const Frame& source) {
@@ -50,8 +50,6 @@ struct Constants {
         frame = constant_buffer(device, std::span(&view, 1));
         const auto light_values = light_constants(source);
         lights = constant_buffer(device, std::span<const LightConstants>(light_values));
-        const auto material_values = material_constants(source);
-        materials = constant_buffer(device, std::span<const MaterialConstants>(material_values));
         counts = Buffer(device, sizeof(std::uint32_t) * COUNT_SIZE, Access::read_write);
         reset_counts();
     }
@@ -66,7 +64,8 @@ struct Constants {
         counts.read(std::as_writable_bytes(std::span(values)));
         return {.nonfinite = values[COUNT_NONFINITE],
                 .clamped = values[COUNT_CLAMPED],
-                .fractional_ids = values[COUNT_FRACTIONAL_IDS]};
+                .fractional_ids = values[COUNT_FRACTIONAL_IDS],
+                .no_tangent = values[COUNT_NO_TANGENT]};
     }
 };
 
@@ -79,8 +78,7 @@ void set_arguments(Kernel& kernel, const Buffer& planes, std::size_t plane_strid
     kernel.set_argument(4, std::uint64_t{0}); // first pixel
     kernel.set_argument(5, constants.frame);
     kernel.set_argument(6, constants.lights);
-    kernel.set_argument(7, constants.materials);
-    kernel.set_argument(8, constants.counts);
+    kernel.set_argument(7, constants.counts);
 }
 
 std::uint64_t frame_bytes(const Frame& frame, std::size_t outputs) {
@@ -195,8 +193,11 @@ Shader::Shader(Device& device, SourceSet kernels, ProgramCache cache, ShaderOpti
     }
 }
 
-std::string Shader::generated_source(const Frame& frame) const {
-    return frame_layout_source(frame, options_.aovs) + "\n" + materials_source(frame);
+SourceSet Shader::sources(const Frame& frame) const {
+    SourceSet sources = kernels_;
+    sources.add("frame_layout.h", frame_layout_source(frame, options_.aovs), "generated/frame_layout.h");
+    sources.add("materials.cl", materials_source(frame).text, "generated/materials.cl");
+    return sources;
 }
 
 std::string Shader::build_options(const Frame& /*frame*/) const {
@@ -205,14 +206,14 @@ std::string Shader::build_options(const Frame& /*frame*/) const {
 
 const Program& Shader::program_for(const Frame& frame) {
     const std::string layout = frame_layout_source(frame, options_.aovs);
-    const std::string materials = materials_source(frame);
+    const MaterialsSource materials = materials_source(frame);
     const std::string options = build_options(frame);
-    const std::string key = layout + materials + options;
+    const std::string key = layout + materials.text + options;
     auto found = programs_.find(key);
     if (found == programs_.end()) {
         SourceSet sources = kernels_;
         sources.add("frame_layout.h", layout, "generated/frame_layout.h");
-        sources.add("materials.cl", materials, "generated/materials.cl");
+        sources.add("materials.cl", materials.text, "generated/materials.cl");
         found = programs_.emplace(key, Program(*device_, sources, "shade.cl", options, cache_)).first;
     }
     return found->second;

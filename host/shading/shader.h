@@ -69,8 +69,8 @@ class PreparedFrame {
     std::unique_ptr<State> state_;
 };
 
-/// Builds one program per distinct structure (models, planes, light types, outputs, lanes) and keeps it; frames with
-/// the same structure reuse it. Parameter and light values are run-time constants.
+/// Builds one program per distinct set of materials, planes, light types, outputs and lanes, and keeps it; frames with
+/// the same ones reuse it. Constants of materials are baked in; lights and the camera are run-time constants.
 class Shader {
   public:
     Shader(Device& device, SourceSet kernels, ProgramCache cache, ShaderOptions options);
@@ -81,8 +81,9 @@ class Shader {
     /// For benches: the whole frame in one launch. Throws RuntimeFailure if it does not fit.
     [[nodiscard]] PreparedFrame prepare(Frame& frame);
 
-    /// The generated part of the program for a frame, for people to read, and the options of its build.
-    [[nodiscard]] std::string generated_source(const Frame& frame) const;
+    /// Every file of the program for a frame, the generated ones among them, for people to read from shade.cl on, and
+    /// the options of its build.
+    [[nodiscard]] SourceSet sources(const Frame& frame) const;
     [[nodiscard]] std::string build_options(const Frame& frame) const;
     [[nodiscard]] int lanes() const { return lanes_; }
 

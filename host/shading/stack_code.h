@@ -1,0 +1,111 @@
+// Private to host/shading: kernel code of one stack of layers (pixel rule 9; models.md section 5).
+#pragma once
+
+#include "host/gbuffer/frame.h"
+#include "host/shading/code_value.h"
+#include "host/shading/metal_curve.h"
+#include "host/shading/parameter_code.h"
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace clshade {
+
+/// Where light is added up: one sum per tint of light and colour of what reflects it.
+struct LightSum {
+    std::string name;
+    Value colour; ///< multiplied in after the loop over the lights
+    bool diffuse = false;
+    std::string light; ///< the tinted irradiance
+    Value share;       ///< what of it is reflected
+};
+
+/// Writes a material's code, layer by layer, top first.
+///
+/// Three places: functions before the material's own (curves of metals), what a pixel does once (`setup`), what it does
+/// for every light (`loop`), and sums over the lights with the colours that are multiplied in at the end.
+class StackCode {
+  public:
+    StackCode(const Frame& frame, std::size_t material);
+
+    [[nodiscard]] const std::string& functions() const { return functions_; }
+    [[nodiscard]] const std::string& setup() const { return setup_.text(); }
+    [[nodiscard]] const std::string& loop() const { return loop_.text(); }
+    [[nodiscard]] const std::vector<LightSum>& sums() const { return sums_; }
+    [[nodiscard]] const MaskNames& clamped() const { return reader_.clamped(); }
+    [[nodiscard]] const MaskNames& no_tangent() const { return no_tangent_; }
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+  private:
+    /// An interface as light meets it: F = r + gain weight in the constant model, `curve` for metals, `fresnel` in the
+    /// exact one.
+    struct Interface {
+        bool present = false;
+        Value r = Value::of(0.0);
+        Value gain = Value::of(0.0);
+        Value weight = Value::of(0.0);
+        std::optional<Value> fresnel; ///< varies with the light in a way of its own: metals, exact model
+    };
+    /// What is left of light, on its way down and up again through the layers above: a part that depends on the pixel
+    /// only and a part that depends on the light.
+    struct Passage {
+        Value pixel = Value::of(1.0);
+        Value light = Value::of(1.0);
+    };
+
+    void add_layer(std::size_t k);
+    void add_base_diffuse(const Interface& base);
+    /// Reads F0 and sets amplitude_. False: the layer has no interface.
+    [[nodiscard]] bool read_f0(std::size_t k, Value& f0);
+    [[nodiscard]] Interface constant_interface(std::size_t k);
+    [[nodiscard]] Interface exact_interface(std::size_t k);
+    /// Writes the polynomial of a metal and returns a call of it.
+    [[nodiscard]] Value metal_call(std::size_t k, const MetalSurroundings& where);
+    void add_lobe(std::size_t k, const Interface& interface);
+    void pass(std::size_t k, const Interface& interface);
+    void absorb(std::size_t k);
+
+    // Values of the light at hand that several layers use; written when first asked for.
+    [[nodiscard]] Value shared(const std::string& name, const std::string& expression);
+    [[nodiscard]] Value schlick_weight(SpecularModel model);
+    /// Name of the irradiance that reaches the interface at hand and comes back.
+    [[nodiscard]] std::string light_here();
+
+    void add_sum(bool diffuse, const std::string& name, const Value& share, const Value& colour);
+
+    [[nodiscard]] bool is_base(std::size_t k) const { return k + 1 == material_->layers.size(); }
+    [[nodiscard]] bool is_exact() const { return material_->fresnel == FresnelModel::exact; }
+    /// "shininess", or "shininess_2" in a stack.
+    [[nodiscard]] std::string name(std::string_view what, std::size_t k) const;
+
+    const Frame* frame_;
+    const BoundMaterial* material_;
+    std::size_t index_;
+    std::string functions_;
+    CodeBlock setup_{4};
+    CodeBlock loop_{8};
+    ParameterReader reader_;
+    std::set<std::string> shared_;
+    std::vector<LightSum> sums_;
+    MaskNames no_tangent_;
+    std::vector<std::string> warnings_;
+
+    // State while going down.
+    Value medium_ = Value::of(0.0);    ///< amplitude of the medium above the layer at hand
+    Value amplitude_ = Value::of(0.0); ///< of the layer at hand, against air
+    Value below_ = Value::of(0.0);     ///< of the medium below its interface
+    Value refracted_ = Value::of(0.0); ///< exact model: cosine in the medium above, as `refracted` gives it
+    Value bent_ = Value::of(0.0);      ///< exact model: the same in the medium below
+    Value up_ = Value::of(1.0);        ///< constant model: U, product of 1 - r
+    Passage specular_;                 ///< to the interface at hand and back
+    Passage diffuse_;
+    Value light_ = Value::rgb("e0"); ///< irradiance in the medium above
+    Value pending_ = Value::of(1.0); ///< transmittance not yet applied to it (approximated absorption)
+    Value depth_ = Value::of(0.0);   ///< optical depth down to here (original absorption)
+    bool deeper_ = false;            ///< depth_ has grown since light_ was named
+    int tints_ = 0;
+};
+
+} // namespace clshade
