@@ -21,10 +21,11 @@ struct StackShape {
 };
 
 /// A frame of width x height pixels: normals at all angles to the eye including grazing, back-facing and zero ones,
-/// shininess log-uniform over 0..65536 and its ends, F0 0..1 and its ends, albedo 0..1, coverage 0..1, absorption
-/// 0..0.6 with zeros, tangents at all angles including zero and parallel ones, a few mirror configurations per light so
-/// that highlights of any shininess are hit; lights of all three types; one material of the given shape. The same seed
-/// gives the same bytes on every machine.
+/// shininess log-uniform over 0..shape.largest_shininess and its ends, F0 0..1 and its ends (above the base mostly of
+/// dielectrics), albedo 0..1, coverage 0..1, absorption 0..0.6 with zeros, tangents at all angles including zero and
+/// parallel ones (others stand 3 degrees off the normal at least), a few mirror configurations per light so that the
+/// highlights of every layer are hit; lights of all three types; one material of the given shape. The same seed gives
+/// the same bytes on every machine. Throws UsageError unless the shape has 1 to 8 layers.
 [[nodiscard]] Frame random_frame(int width, int height, const StackShape& shape, std::uint64_t seed);
 
 /// The same for a single layer.

@@ -161,7 +161,7 @@ glm::dvec3 random_normal(RandomGenerator& random, const glm::dvec3& eye, const g
 }
 
 bool is_sound_tangent(const glm::dvec3& tangent, const glm::dvec3& normal) {
-    // An angle of 0.05 to the normal: single precision then keeps the frame to a few millionths.
+    // Three degrees: single precision then keeps the frame to a few millionths.
     constexpr double smallest_sine = 0.05;
     const glm::dvec3 across = glm::cross(tangent, normal);
     return glm::dot(across, across) >=
