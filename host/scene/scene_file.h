@@ -14,22 +14,28 @@ namespace clshade {
 /// "material.default.specular.shininess=32", applied to the TOML tree before validation so that they obey the same
 /// rules; `model` (may be empty) is the argument of --model, short for the specular or diffuse model of `default`.
 /// Throws UsageError "FILE:LINE:COL: ..." for syntax, unknown keys (with a suggestion), wrong types, values out of
-/// range, NaN, duplicate ids, a singular camera, and for names of models, presets and sections that are not built yet;
-/// also UsageError if the file cannot be read.
+/// range, NaN, duplicate ids or names, a stack that makes no sense, a bad table of a metal, a singular camera, and for
+/// [environment], which is not built yet; also UsageError if a file cannot be read.
 ///
 /// What is left out:
 ///   light.name: "light1", "light2", ... by place; color: 1; cone_softness: 0
+///   fresnel: constant; absorption_model: approximated; a layer's absorption: 0
 ///   specular.model: blinn_phong; f0: 0.04; shininess: 64.   diffuse.model: lambert; albedo: 0.5;
-///   diffuse.shininess: the specular shininess (which must then be written if the specular model is "none")
-///   the table `specular` or `diffuse` of a material that has the other one: model "none" for that part
+///   diffuse.shininess: the base's specular shininess (which must then be written if the specular model is "none"; an
+///   anisotropic lobe has none to give).   tangent: the tangent role.   shininess_u, shininess_v, metal: none
+///   the table `specular` or `diffuse` of a layer: model "none" for that part
 ///   [material.default]: chosen from the roles of the G-buffer (Scene::automatic)
+/// `preset` stands for the keys of that preset, lowest in rank: what the file writes beside it wins, and what --set and
+/// --model say wins over both. Where a model is chosen, keys of lower rank that it lacks are dropped.
 ///
+/// Paths of metal tables are relative to the folder of `file`.
 /// Overrides: the value is TOML, or a bare word. Tables on the way are created; a list of tables is entered by index
-/// from 0 or, for lights, by name ("light.key.irradiance=5", "light.0.irradiance=5").
+/// from 0 or, for lights, by name ("light.key.irradiance=5", "light.0.irradiance=5",
+/// "material.wax.layer.0.specular.shininess=64").
 [[nodiscard]] Scene read_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
                                std::string_view model);
 
-/// The same for text in memory; `file` only names it in messages.
+/// The same for text in memory; `file` names it in messages and says where paths start.
 [[nodiscard]] Scene parse_scene(std::string_view text, const std::string& file, std::span<const std::string> overrides,
                                 std::string_view model);
 

@@ -108,10 +108,10 @@ TEST(Scene, ReadsMaterials) {
     const Material& base = scene.materials[0];
     EXPECT_EQ(base.name, "default");
     EXPECT_TRUE(base.ids.empty());
-    EXPECT_EQ(base.specular.model, SpecularModel::blinn_phong);
-    EXPECT_EQ(base.specular.f0.constant, glm::dvec3(0.04));
-    EXPECT_THAT(base.specular.shininess.channels, ElementsAre("roughness"));
-    EXPECT_EQ(base.specular.shininess.convert, Conversion::ggx_roughness);
+    EXPECT_EQ(base.base().model, SpecularModel::blinn_phong);
+    EXPECT_EQ(base.base().f0.constant, glm::dvec3(0.04));
+    EXPECT_THAT(base.base().shininess.channels, ElementsAre("roughness"));
+    EXPECT_EQ(base.base().shininess.convert, Conversion::ggx_roughness);
     EXPECT_EQ(base.diffuse.model, DiffuseModel::oren_nayar);
     EXPECT_THAT(base.diffuse.albedo.channels, ElementsAre("albedo"));
     ASSERT_TRUE(base.diffuse.shininess.has_value());
@@ -119,9 +119,9 @@ TEST(Scene, ReadsMaterials) {
     const Material& wax = scene.materials[1];
     EXPECT_EQ(wax.name, "wax");
     EXPECT_THAT(wax.ids, ElementsAre(3, 7));
-    EXPECT_EQ(wax.specular.model, SpecularModel::blinn_phong_exact);
-    EXPECT_NEAR(wax.specular.f0.constant.g, 0.04, 1e-15); // (0.5 / 2.5)^2, to rounding
-    EXPECT_EQ(wax.specular.shininess.constant, glm::dvec3(512.0));
+    EXPECT_EQ(wax.base().model, SpecularModel::blinn_phong_exact);
+    EXPECT_NEAR(wax.base().f0.constant.g, 0.04, 1e-15); // (0.5 / 2.5)^2, to rounding
+    EXPECT_EQ(wax.base().shininess.constant, glm::dvec3(512.0));
     EXPECT_THAT(wax.diffuse.albedo.channels, ElementsAre("a.R", "a.G", "a.B"));
     EXPECT_EQ(wax.diffuse.albedo.scale, 2.0);
     EXPECT_EQ(wax.diffuse.albedo.offset, -0.5);
@@ -140,10 +140,10 @@ TEST(Scene, DefaultMaterialComesFirstAndOthersInFileOrder) {
 TEST(Scene, AbsentLobeOfAWrittenMaterialIsNone) {
     const Scene scene =
         parse(head + "[material.default]\nspecular = {}\n[material.chalk]\nids = [1]\ndiffuse = { albedo = 0.9 }\n");
-    EXPECT_EQ(scene.materials[0].specular.model, SpecularModel::blinn_phong);
-    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 64.0);
+    EXPECT_EQ(scene.materials[0].base().model, SpecularModel::blinn_phong);
+    EXPECT_EQ(scene.materials[0].base().shininess.constant.x, 64.0);
     EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::none);
-    EXPECT_EQ(scene.materials[1].specular.model, SpecularModel::none);
+    EXPECT_EQ(scene.materials[1].base().model, SpecularModel::none);
     EXPECT_EQ(scene.materials[1].diffuse.model, DiffuseModel::lambert);
 }
 
@@ -151,7 +151,7 @@ TEST(Scene, OneLayerIsTheMaterialItself) {
     const Scene scene = parse(head + "[material.paint]\nids = [4]\n[[material.paint.layer]]\n"
                                      "specular = { shininess = 99 }\ndiffuse = { albedo = [0.1, 0.2, 0.3] }\n");
     ASSERT_EQ(scene.materials.size(), 2U);
-    EXPECT_EQ(scene.materials[1].specular.shininess.constant.x, 99.0);
+    EXPECT_EQ(scene.materials[1].base().shininess.constant.x, 99.0);
     EXPECT_EQ(scene.materials[1].diffuse.albedo.constant, glm::dvec3(0.1, 0.2, 0.3));
 }
 
@@ -160,7 +160,7 @@ TEST(Scene, WithoutMaterialsEverythingIsAutomatic) {
     EXPECT_TRUE(scene.automatic_material);
     EXPECT_TRUE(scene.automatic.albedo && scene.automatic.f0 && scene.automatic.shininess);
     ASSERT_EQ(scene.materials.size(), 1U);
-    EXPECT_EQ(scene.materials[0].specular.model, SpecularModel::blinn_phong);
+    EXPECT_EQ(scene.materials[0].base().model, SpecularModel::blinn_phong);
     EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::lambert);
 }
 
@@ -187,10 +187,10 @@ TEST(Scene, EndsOfRangesAreAllowed) {
                               "[material.air]\nids = [-1, 16777216]\nspecular = { ior = 1 }\n");
     EXPECT_EQ(scene.lights[0].cone_angle, glm::pi<double>());
     EXPECT_EQ(scene.lights[0].cone_softness, 1.0);
-    EXPECT_EQ(scene.materials[0].specular.f0.constant, glm::dvec3(1.0));
-    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 65536.0);
+    EXPECT_EQ(scene.materials[0].base().f0.constant, glm::dvec3(1.0));
+    EXPECT_EQ(scene.materials[0].base().shininess.constant.x, 65536.0);
     EXPECT_EQ(scene.materials[0].diffuse.shininess->constant.x, 0.0);
-    EXPECT_EQ(scene.materials[1].specular.f0.constant, glm::dvec3(0.0));
+    EXPECT_EQ(scene.materials[1].base().f0.constant, glm::dvec3(0.0));
     EXPECT_THAT(scene.materials[1].ids, ElementsAre(-1, 16777216));
 }
 
@@ -209,7 +209,7 @@ TEST(Scene, NamesOfModelsAreTheirTomlNames) {
     for (const auto model : {SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact}) {
         const std::string text =
             head + "[material.default]\ndiffuse = {}\nspecular.model = '" + std::string(name_of(model)) + "'\n";
-        EXPECT_EQ(parse(text).materials[0].specular.model, model) << text;
+        EXPECT_EQ(parse(text).materials[0].base().model, model) << text;
     }
     for (const auto model :
          {DiffuseModel::none, DiffuseModel::lambert, DiffuseModel::oren_nayar, DiffuseModel::oren_nayar_full,
@@ -223,7 +223,7 @@ TEST(Scene, NamesOfModelsAreTheirTomlNames) {
          {Conversion::none, Conversion::ggx_roughness, Conversion::smoothness, Conversion::oren_nayar_sigma}) {
         const std::string text = head + "[material.default]\nspecular.shininess = { channel = 'r', convert = '" +
                                  std::string(name_of(convert)) + "' }\n";
-        EXPECT_EQ(parse(text).materials[0].specular.shininess.convert, convert) << text;
+        EXPECT_EQ(parse(text).materials[0].base().shininess.convert, convert) << text;
     }
 }
 

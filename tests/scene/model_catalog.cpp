@@ -2,28 +2,73 @@
 
 #include "tests/scene/support.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
+#include <array>
 #include <set>
 
 namespace clshade {
 namespace {
 
-/// A scene whose default material has the model, with a lobe beside it so that diffuse models find a shininess.
-std::string scene_with(const ModelInfo& info) {
-    const std::string other = info.kind == "diffuse" ? "specular = {}\n" : "diffuse = {}\n";
-    return head + "[material.default]\n" + other + std::string(info.kind) + ".model = '" + std::string(info.name) +
-           "'\n";
+bool is_lobe(const ModelInfo& info) {
+    return info.kind == "specular" || info.kind == "diffuse";
 }
 
-TEST(ModelCatalog, TheParserTakesExactlyWhatIsAvailable) {
+/// What a parameter needs at the least.
+std::string example_of(std::string_view parameter) {
+    if (parameter == "metal") {
+        return "'gold'";
+    }
+    return parameter == "tangent" ? "[1, 0, 0]" : "1";
+}
+
+/// A scene whose default material has the model with the given parameters, beside another lobe.
+std::string scene_with(const ModelInfo& info, const std::set<std::string_view>& parameters) {
+    std::string lobe = "model = '" + std::string(info.name) + "'";
+    for (const std::string_view parameter : parameters) {
+        lobe += ", " + std::string(parameter) + " = " + example_of(parameter);
+    }
+    const std::string other = info.kind == "diffuse" ? "specular = {}\n" : "diffuse = {}\n";
+    return head + "[material.default]\n" + other + std::string(info.kind) + " = { " + lobe + " }\n";
+}
+
+std::set<std::string_view> parameters_of(const ModelInfo& info) {
+    std::set<std::string_view> names;
+    for (const ParameterInfo& parameter : info.parameters) {
+        EXPECT_TRUE(names.insert(parameter.name).second) << info.name << " lists " << parameter.name << " twice";
+    }
+    return names;
+}
+
+TEST(ModelCatalog, TheParserTakesExactlyTheParametersOfASpecularModel) {
+    constexpr std::array<std::string_view, 7> all{"f0",          "ior",   "shininess", "shininess_u",
+                                                  "shininess_v", "metal", "tangent"};
     for (const ModelInfo& info : model_catalog()) {
-        const std::string message = error_of(scene_with(info));
-        if (info.available) {
-            EXPECT_EQ(message, "") << info.name;
-        } else {
-            EXPECT_THAT(message, testing::HasSubstr("is not built yet")) << info.name;
+        if (info.kind != "specular") {
+            continue;
+        }
+        std::set<std::string_view> known = parameters_of(info);
+        known.erase("ior"); // instead of f0
+        EXPECT_EQ(error_of(scene_with(info, known)), "") << info.name;
+        for (const std::string_view parameter : all) {
+            if (parameter != "ior" && !known.contains(parameter)) {
+                std::set<std::string_view> more = known;
+                more.insert(parameter);
+                EXPECT_NE(error_of(scene_with(info, more)), "") << info.name << " took " << parameter;
+            }
+        }
+    }
+}
+
+TEST(ModelCatalog, ParametersWithoutADefaultMustBeWritten) {
+    for (const ModelInfo& info : model_catalog()) {
+        if (!is_lobe(info)) {
+            continue;
+        }
+        for (const ParameterInfo& parameter : info.parameters) {
+            std::set<std::string_view> rest = parameters_of(info);
+            rest.erase("ior");
+            rest.erase(parameter.name);
+            const bool needed = parameter.fallback.starts_with("must be written");
+            EXPECT_EQ(error_of(scene_with(info, rest)) != "", needed) << info.name << " without " << parameter.name;
         }
     }
 }
@@ -33,37 +78,44 @@ TEST(ModelCatalog, KnowsEveryModelOfTheScene) {
     for (const ModelInfo& info : model_catalog()) {
         EXPECT_TRUE(names.insert(info.name).second) << info.name << " is listed twice";
     }
-    for (int i = 1; i <= static_cast<int>(SpecularModel::blinn_phong_exact); ++i) {
+    for (int i = 1; i <= static_cast<int>(SpecularModel::blinn_phong_spectral); ++i) {
         EXPECT_EQ(names.count(name_of(static_cast<SpecularModel>(i))), 1U) << i;
     }
     for (int i = 1; i <= static_cast<int>(DiffuseModel::oren_nayar_shininess); ++i) {
         EXPECT_EQ(names.count(name_of(static_cast<DiffuseModel>(i))), 1U) << i;
     }
-    EXPECT_EQ(names.count("blinn_phong_anisotropic") + names.count("blinn_phong_spectral"), 2U);
+    EXPECT_EQ(names.size(), 4U + 7U + 1U);
 }
 
-TEST(ModelCatalog, ListsAvailableModelsFirstInEachKind) {
-    std::string_view kind;
-    bool available = true;
-    std::set<std::string_view> kinds;
+TEST(ModelCatalog, ListsSpecularThenDiffuseThenStack) {
+    std::vector<std::string_view> kinds;
     for (const ModelInfo& info : model_catalog()) {
-        if (info.kind != kind) {
-            EXPECT_TRUE(kinds.insert(info.kind).second) << "kinds are mixed at " << info.name;
-            kind = info.kind;
-            available = true;
+        if (kinds.empty() || kinds.back() != info.kind) {
+            kinds.push_back(info.kind);
         }
-        EXPECT_TRUE(available || !info.available) << info.name;
-        available = info.available;
     }
-    EXPECT_EQ(kinds, (std::set<std::string_view>{"specular", "diffuse"}));
+    EXPECT_THAT(kinds, testing::ElementsAre("specular", "diffuse", "stack"));
 }
 
-TEST(ModelCatalog, DocumentsEveryModel) {
+TEST(ModelCatalog, DocumentsEveryModelAndParameter) {
     for (const ModelInfo& info : model_catalog()) {
         EXPECT_THAT(std::string(info.source), testing::HasSubstr("models.md section")) << info.name;
         EXPECT_FALSE(info.summary.empty() || info.advice.empty()) << info.name;
         EXPECT_FALSE(info.parameters.empty()) << info.name;
+        for (const ParameterInfo& parameter : info.parameters) {
+            EXPECT_FALSE(parameter.name.empty() || parameter.unit.empty() || parameter.range.empty() ||
+                         parameter.fallback.empty() || parameter.source.empty())
+                << info.name << " " << parameter.name;
+        }
     }
+}
+
+TEST(ModelCatalog, TheStackHasTheKeysOfAMaterial) {
+    const ModelInfo& layers = model_catalog().back();
+    EXPECT_EQ(layers.name, "layers");
+    EXPECT_EQ(parameters_of(layers), (std::set<std::string_view>{"layer", "fresnel", "absorption_model", "absorption",
+                                                                 "ids", "names", "preset"}));
+    EXPECT_THAT(error_of(head, {}, "layers"), testing::HasSubstr("unknown model")); // no lobe
 }
 
 } // namespace

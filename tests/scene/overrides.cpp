@@ -15,14 +15,14 @@ const std::string with_material = head + "[material.default]\nspecular = { f0 = 
 
 TEST(Overrides, ReplaceWhatIsWritten) {
     const Scene scene = parse(with_material, {"material.default.specular.shininess=32"});
-    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 32.0);
-    EXPECT_EQ(scene.materials[0].specular.f0.constant.x, 0.1);
+    EXPECT_EQ(scene.materials[0].base().shininess.constant.x, 32.0);
+    EXPECT_EQ(scene.materials[0].base().f0.constant.x, 0.1);
 }
 
 TEST(Overrides, TheLastOneWins) {
     const Scene scene =
         parse(with_material, {"material.default.specular.shininess=32", "material.default.specular.shininess = 33 "});
-    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 33.0);
+    EXPECT_EQ(scene.materials[0].base().shininess.constant.x, 33.0);
 }
 
 TEST(Overrides, TakeEveryKindOfValue) {
@@ -32,8 +32,8 @@ TEST(Overrides, TakeEveryKindOfValue) {
                                               "gbuffer.normal=\"View Layer.Normal\"", "gbuffer.normal_space=camera"});
     EXPECT_EQ(scene.materials[0].diffuse.albedo.constant, glm::dvec3(0.1, 0.2, 0.3));
     EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::oren_nayar);
-    EXPECT_EQ(scene.materials[0].specular.f0.channels.at(0), "spec");
-    EXPECT_EQ(scene.materials[0].specular.f0.scale, 0.5);
+    EXPECT_EQ(scene.materials[0].base().f0.channels.at(0), "spec");
+    EXPECT_EQ(scene.materials[0].base().f0.scale, 0.5);
     EXPECT_EQ(scene.gbuffer.roles.at(0).channels.at(0), "View Layer.Normal");
     EXPECT_EQ(scene.gbuffer.normal_space, NormalSpace::camera);
 }
@@ -58,10 +58,24 @@ TEST(Overrides, CreateTables) {
 
 TEST(Overrides, ReachIntoLayers) {
     const std::string text = head + "[[material.default.layer]]\nspecular = { shininess = 9 }\n";
-    EXPECT_EQ(
-        parse(text, {"material.default.layer.0.specular.shininess=10"}).materials[0].specular.shininess.constant.x,
-        10.0);
-    EXPECT_EQ(parse(text, {}, "blinn_phong_exact").materials[0].specular.model, SpecularModel::blinn_phong_exact);
+    EXPECT_EQ(parse(text, {"material.default.layer.0.specular.shininess=10"}).materials[0].base().shininess.constant.x,
+              10.0);
+    EXPECT_EQ(parse(text, {}, "blinn_phong_exact").materials[0].base().model, SpecularModel::blinn_phong_exact);
+}
+
+TEST(Overrides, FindTheLayerOfALobe) {
+    const std::string one = head + "[[material.default.layer]]\nspecular = { f0 = 0.1 }\ndiffuse = {}\n";
+    EXPECT_EQ(parse(one, {"material.default.specular.f0=0.2"}).materials[0].base().f0.constant.x, 0.2);
+    const std::string two = head + "[[material.a.layer]]\nspecular = { f0 = 0.1 }\nabsorption = 0.1\n"
+                                   "[[material.a.layer]]\ndiffuse = {}\n[material.a]\nids = [1]\n";
+    const Material a =
+        parse(two, {"material.a.layer.0.specular.f0=0.3", "material.a.diffuse.albedo=0.4"}).materials.at(1);
+    EXPECT_EQ(a.layers[0].specular.f0.constant.x, 0.3);
+    EXPECT_EQ(a.diffuse.albedo.constant.x, 0.4);
+    EXPECT_THAT(error_of(two, {"material.a.specular.f0=0.3"}),
+                StartsWith("--set material.a.specular.f0=0.3: material 'a' has 2 layers"));
+    EXPECT_THAT(error_of(two, {"material.a.layer.2.specular.f0=0.3"}),
+                HasSubstr("'layer' has no element '2'; it has 2, counted from 0"));
 }
 
 TEST(Overrides, ObeyTheSameRules) {
@@ -94,14 +108,61 @@ TEST(Overrides, QuotedKeysMayHoldDots) {
 }
 
 TEST(Model, ChoosesTheLobeByName) {
-    EXPECT_EQ(parse(with_material, {}, "blinn_phong_exact").materials[0].specular.model,
+    EXPECT_EQ(parse(with_material, {}, "blinn_phong_exact").materials[0].base().model,
               SpecularModel::blinn_phong_exact);
     EXPECT_EQ(parse(with_material, {}, "oren_nayar_full").materials[0].diffuse.model, DiffuseModel::oren_nayar_full);
     EXPECT_THAT(error_of(with_material, {}, "blinn_phong_exakt"),
                 StartsWith("--model blinn_phong_exakt: unknown model; did you mean 'blinn_phong_exact'?"));
-    EXPECT_THAT(error_of(with_material, {}, "blinn_phong_spectral"), HasSubstr("is not built yet"));
     EXPECT_THAT(error_of(with_material, {}, "none"), HasSubstr("--set material.default.specular.model=none"));
     EXPECT_THAT(error_of(with_material, {}, "zzz"), HasSubstr("write one of 'blinn_phong'"));
+}
+
+TEST(Model, OfAnisotropyAndMetalsNeedsTheirKeys) {
+    EXPECT_THAT(error_of(with_material, {}, "blinn_phong_anisotropic"),
+                StartsWith("--model blinn_phong_anisotropic: specular of material 'default' lacks 'shininess_u'"));
+    EXPECT_THAT(error_of(head, {}, "blinn_phong_anisotropic"),
+                StartsWith("--model blinn_phong_anisotropic: specular of material 'default' lacks 'shininess_u'"));
+    EXPECT_THAT(error_of(with_material, {}, "blinn_phong_spectral"),
+                StartsWith("--model blinn_phong_spectral: specular of material 'default' lacks 'metal'"));
+    // The file's own shininess and f0 give way to a model that lacks them.
+    const Specular brushed =
+        parse(with_material, {"material.default.specular.shininess_u=3", "material.default.specular.shininess_v=5"},
+              "blinn_phong_anisotropic")
+            .materials[0]
+            .base();
+    EXPECT_EQ(brushed.model, SpecularModel::blinn_phong_anisotropic);
+    EXPECT_EQ(brushed.f0.constant.x, 0.1);
+    EXPECT_EQ(brushed.shininess_v.constant.x, 5.0);
+    const Specular copper =
+        parse(with_material, {"material.default.specular.metal=copper"}, "blinn_phong_spectral").materials[0].base();
+    EXPECT_EQ(copper.metal.name, "copper");
+    EXPECT_EQ(copper.shininess.constant.x, 8.0);
+    const Scene matte = parse(with_material, {"material.default.specular.model=none"});
+    EXPECT_EQ(matte.materials[0].base().model, SpecularModel::none);
+}
+
+TEST(Automatic, LeavesOutWhatTheModelLacks) {
+    const Scene brushed = default_scene(
+        std::vector<std::string>{"material.default.specular.shininess_u=3", "material.default.specular.shininess_v=5"},
+        "blinn_phong_anisotropic");
+    EXPECT_TRUE(brushed.automatic.albedo && brushed.automatic.f0);
+    EXPECT_FALSE(brushed.automatic.shininess);
+    const Scene metal =
+        default_scene(std::vector<std::string>{"material.default.specular.metal=gold"}, "blinn_phong_spectral");
+    EXPECT_TRUE(metal.automatic.albedo && metal.automatic.shininess);
+    EXPECT_FALSE(metal.automatic.f0);
+}
+
+TEST(Automatic, IsTheBaseOfAStack) {
+    const Scene scene = default_scene(
+        std::vector<std::string>{"material.default.layer=[{specular={ior=1.5}, absorption=0.1}, {}]"}, {});
+    const Material& material = scene.materials[0];
+    ASSERT_EQ(material.layers.size(), 2U);
+    EXPECT_EQ(material.layers[0].absorption.constant.x, 0.1);
+    EXPECT_EQ(material.base().model, SpecularModel::blinn_phong);
+    EXPECT_EQ(material.diffuse.model, DiffuseModel::lambert);
+    EXPECT_FALSE(scene.automatic_material);
+    EXPECT_TRUE(scene.automatic.albedo && scene.automatic.f0 && scene.automatic.shininess);
 }
 
 TEST(Automatic, OverridesLeaveTheRestAutomatic) {
@@ -110,7 +171,7 @@ TEST(Automatic, OverridesLeaveTheRestAutomatic) {
     EXPECT_TRUE(scene.automatic.albedo);
     EXPECT_TRUE(scene.automatic.f0);
     EXPECT_FALSE(scene.automatic.shininess);
-    EXPECT_EQ(scene.materials[0].specular.shininess.constant.x, 32.0);
+    EXPECT_EQ(scene.materials[0].base().shininess.constant.x, 32.0);
     EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::lambert); // not "none": nobody wrote the material
 }
 
@@ -118,7 +179,7 @@ TEST(Automatic, AModelLeavesAllParametersAutomatic) {
     const Scene scene = default_scene({}, "oren_nayar");
     EXPECT_FALSE(scene.automatic_material);
     EXPECT_TRUE(scene.automatic.albedo && scene.automatic.f0 && scene.automatic.shininess);
-    EXPECT_EQ(scene.materials[0].specular.model, SpecularModel::blinn_phong);
+    EXPECT_EQ(scene.materials[0].base().model, SpecularModel::blinn_phong);
     EXPECT_EQ(scene.materials[0].diffuse.model, DiffuseModel::oren_nayar);
     EXPECT_FALSE(scene.materials[0].diffuse.shininess.has_value());
 }
@@ -126,7 +187,7 @@ TEST(Automatic, AModelLeavesAllParametersAutomatic) {
 TEST(Automatic, IorIsAWrittenF0) {
     const Scene scene = default_scene(std::vector<std::string>{"material.default.specular.ior=3"}, {});
     EXPECT_FALSE(scene.automatic.f0);
-    EXPECT_EQ(scene.materials[0].specular.f0.constant.x, 0.25);
+    EXPECT_EQ(scene.materials[0].base().f0.constant.x, 0.25);
 }
 
 TEST(Automatic, WrittenMaterialsStayWritten) {
