@@ -104,11 +104,11 @@ BoundMaterial material_of(std::string name, std::vector<std::int64_t> ids, Specu
     BoundMaterial material;
     material.name = std::move(name);
     material.ids = std::move(ids);
-    material.specular = specular;
+    material.base().specular = specular;
+    material.base().f0 = from_planes(9, 3);
+    material.base().shininess = from_planes(12, 1);
     material.diffuse = diffuse;
     material.albedo = from_planes(6, 3);
-    material.f0 = from_planes(9, 3);
-    material.shininess = from_planes(12, 1);
     material.diffuse_shininess = from_planes(12, 1);
     return material;
 }
