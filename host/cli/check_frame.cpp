@@ -26,16 +26,15 @@ struct Group {
     }
 };
 
-// Pairs of models in the order of the materials, and the pixels without a surface.
+// Stacks of models in the order of the materials, and the pixels without a surface.
 std::vector<Group> groups_of(const Frame& frame, const ToleranceOverride& wanted) {
     std::vector<Group> groups;
     int index = 0;
     for (const BoundMaterial& material : frame.materials) {
-        const std::string model = pair_name(material.specular, material.diffuse);
+        const std::string model = model_key(material);
         auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.model == model; });
         if (found == groups.end()) {
-            const auto defaults = reference::default_tolerance(material.specular, material.diffuse);
-            groups.push_back({model, wanted.apply(defaults), {}});
+            groups.push_back({model, wanted.apply(reference::default_tolerance(material)), {}});
             found = groups.end() - 1;
         }
         found->materials.push_back(index++);
@@ -82,10 +81,6 @@ reference::Tolerance ToleranceOverride::apply(const reference::Tolerance& defaul
     reference::Tolerance tolerance = defaults;
     tolerance.percentile = percentile.value_or(defaults.percentile);
     return tolerance;
-}
-
-std::string pair_name(SpecularModel specular, DiffuseModel diffuse) {
-    return fmt::format("{}.{}", name_of(specular), name_of(diffuse));
 }
 
 std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded, const reference::Image& expected,

@@ -1,4 +1,4 @@
-// Device against reference for one frame, by pairs of models.
+// Device against reference for one frame, by stacks of models.
 #pragma once
 
 #include "host/gbuffer/frame.h"
@@ -24,9 +24,9 @@ struct ToleranceOverride {
     [[nodiscard]] reference::Tolerance apply(const reference::Tolerance& defaults) const;
 };
 
-/// The verdict on the pixels of one pair of models.
+/// The verdict on the pixels of one stack of models.
 struct CheckResult {
-    std::string model; ///< "blinn_phong.lambert"; "no_surface" for the pixels that must stay 0
+    std::string model; ///< model_key; "no_surface" for the pixels that must stay 0
     reference::Tolerance tolerance;
     reference::Comparison comparison;
     bool pass = false;
@@ -34,11 +34,8 @@ struct CheckResult {
     nlohmann::json worst; ///< x, y, inputs, device, reference; null if no pixel was compared
 };
 
-/// Stable name of a pair of models.
-[[nodiscard]] std::string pair_name(SpecularModel specular, DiffuseModel diffuse);
-
 /// Shades `frame` with the reference on `threads` threads and compares it with what the device made of it. One result
-/// per pair of models that claims a pixel, in the order of the materials.
+/// per model_key that claims a pixel, in the order of the materials.
 [[nodiscard]] std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded,
                                                    const reference::Image& expected, const ToleranceOverride& wanted,
                                                    int threads);

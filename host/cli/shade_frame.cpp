@@ -34,8 +34,7 @@ std::string plan_text(const PlannedInput& input, const FrameJob& job, const Chos
                     input.plan.channels.size(), input.layout.channels.size(), camera_source(input, scene.scene),
                     scene.name, frame.lights.size(), device.platform, device.name);
     for (const BoundMaterial& material : frame.materials) {
-        text += fmt::format("  material {}: {} + {}\n", material.name, name_of(material.specular),
-                            name_of(material.diffuse));
+        text += fmt::format("  material {}: {}\n", material.name, model_key(material));
     }
     return text + "\n" + roles_text(input);
 }
@@ -129,6 +128,11 @@ std::vector<std::string> count_warnings(const std::string& file, const PixelCoun
     if (counts.clamped > 0) {
         warnings.push_back(
             fmt::format("{}: {} pixels with a parameter out of its range; it was clamped", file, counts.clamped));
+    }
+    if (counts.no_tangent > 0) {
+        warnings.push_back(fmt::format("{}: {} pixels of anisotropic materials have a tangent that is missing or parallel "
+                                       "to the normal; a frame around the normal stands in",
+                                       file, counts.no_tangent));
     }
     return warnings;
 }

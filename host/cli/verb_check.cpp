@@ -106,10 +106,10 @@ class CheckRun {
                 if (specular == SpecularModel::none && diffuse == DiffuseModel::none) {
                     continue; // black
                 }
-                const std::string name = pair_name(specular, diffuse);
-                progress.update("comparing " + name);
                 Stopwatch watch;
                 Frame frame = random_frame(size.width, size.height, specular, diffuse, options_.common.seed);
+                const std::string name = model_key(frame.materials.front());
+                progress.update("comparing " + name);
                 StageTimes stages;
                 stages.add("random G-buffer", watch.lap());
                 compare(frame, name, std::move(stages));
@@ -143,17 +143,24 @@ class CheckRun {
             result.model = merge ? layer + ".no_surface" : result.model;
             results_.push_back(std::move(result));
         }
-        if (expected.counts.nonfinite != shaded.counts.nonfinite) {
-            results_.back().pass = false;
-            results_.back().trouble = fmt::format("non-finite pixels: device {}, reference {}", shaded.counts.nonfinite,
-                                                  expected.counts.nonfinite);
-        }
+        compare_counts(shaded.counts, expected.counts);
         if (!options_.dump.empty()) {
             dump_.add(layer, frame, shaded, expected);
         }
         stages.add("compare", watch.lap());
         stats_.add(stages);
         stats_.add(shaded.kernel_times);
+    }
+
+    void compare_counts(const PixelCounts& device, const PixelCounts& reference) {
+        const auto compare_one = [this](const char* what, std::uint64_t ours, std::uint64_t expected) {
+            if (ours != expected) {
+                results_.back().pass = false;
+                results_.back().trouble = fmt::format("{}: device {}, reference {}", what, ours, expected);
+            }
+        };
+        compare_one("non-finite pixels", device.nonfinite, reference.nonfinite);
+        compare_one("pixels without a tangent", device.no_tangent, reference.no_tangent);
     }
 
     ExitCode tell() {
