@@ -39,6 +39,9 @@ double fresnel_conductor(double n, double k, double cosine) {
     if (n == 1.0 && k == 0.0) {
         return 0.0; // c = 0 would be 0/0
     }
+    if (n == 0.0 && k == 0.0) {
+        return 1.0; // seen from a medium of infinite index; c = 1 would be 0/0
+    }
     const double c2 = cosine * cosine;
     const double s2 = 1.0 - c2;
     const double nk2 = n * n * k * k;

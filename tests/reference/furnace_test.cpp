@@ -1,68 +1,15 @@
-// White furnace (models.md section 12): hemispherical-directional reflectance by integration.
+// White furnace of single layers (models.md section 12).
 #include "host/reference/blinn_phong.h"
 #include "host/reference/diffuse.h"
-#include "tests/reference/directions.h"
+#include "tests/reference/furnace.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <functional>
-#include <numbers>
 #include <vector>
 
 namespace clshade::reference {
 namespace {
-
-constexpr double pi = std::numbers::pi;
-using Lobe = std::function<double(const Angles&)>; // f_cos
-
-glm::dvec3 eye_at(double ne) {
-    return {std::sqrt(1.0 - ne * ne), 0.0, ne};
-}
-
-/// Integral of f_cos over the hemisphere of L for a lobe about H, midpoint rule in u = (N.H)^(n+1) and the azimuth of
-/// H: dw_L = 4 E.H dw_H, and (n + 1) (N.H)^n / 2 pi is the density of H.
-double reflectance_of_lobe(const Lobe& f_cos, double n, double ne) {
-    constexpr int rings = 500;
-    constexpr int sectors = 160;
-    const glm::dvec3 eye = eye_at(ne);
-    double sum = 0.0;
-    for (int i = 0; i < rings; ++i) {
-        const double u = (i + 0.5) / rings;
-        const double nh = std::pow(u, 1.0 / (n + 1.0));
-        const double density = (n + 1.0) * std::pow(nh, n) / (2.0 * pi);
-        for (int j = 0; j < sectors; ++j) {
-            const glm::dvec3 half =
-                direction_at(std::acos(nh), (j + 0.5) / sectors * pi); // one half; the other mirrors
-            const double eh = glm::dot(eye, half);
-            const glm::dvec3 light = 2.0 * eh * half - eye;
-            if (eh > 0.0 && light.z > 0.0) {
-                sum += f_cos(unclamped_angles(eye, light)) * 4.0 * eh / density;
-            }
-        }
-    }
-    return sum / (rings * sectors);
-}
-
-/// The same for a diffuse model, midpoint rule in the angle of L and its azimuth.
-double reflectance_of_diffuse(const Lobe& f_cos, double ne) {
-    constexpr int rings = 200;
-    constexpr int sectors = 100;
-    const glm::dvec3 eye = eye_at(ne);
-    double sum = 0.0;
-    for (int i = 0; i < rings; ++i) {
-        const double theta = (i + 0.5) / rings * pi / 2.0;
-        for (int j = 0; j < sectors; ++j) {
-            sum += f_cos(unclamped_angles(eye, direction_at(theta, (j + 0.5) / sectors * pi))) * std::sin(theta);
-        }
-    }
-    return sum * (pi / 2.0 / rings) * (2.0 * pi / sectors);
-}
-
-// Tables are printed to four decimals: half a unit of the last, and as much again for both integrations.
-constexpr double printed = 1e-4;
 
 TEST(Furnace, SpecularLobeWithFresnelOne) {
     const std::array<double, 7> nes{0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 1.0};
