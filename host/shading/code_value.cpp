@@ -129,7 +129,7 @@ std::string rgb_text(const Value& value) {
     if (value.grey) {
         return fmt::format("grey({})", real_text(value));
     }
-    if (value.known) {
+    if (value.known && value.text.empty()) {
         return fmt::format("make_rgb(splat({}), splat({}), splat({}))", float_literal(value.number.x),
                            float_literal(value.number.y), float_literal(value.number.z));
     }
@@ -153,8 +153,28 @@ Value call(std::string_view name, std::initializer_list<Value> arguments) {
     return call(name, "", arguments);
 }
 
+std::string wrapped(std::string_view line) {
+    constexpr std::size_t widest = 120;
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    std::string text;
+    std::string rest(line);
+    while (rest.size() > widest) {
+        const std::size_t comma = rest.rfind(", ", widest - 2);
+        const std::size_t bar = rest.rfind(" | ", widest - 2);
+        const std::size_t at = comma == std::string::npos ? bar
+                               : bar == std::string::npos ? comma
+                                                          : std::max(comma, bar);
+        if (at == std::string::npos || at <= indent + 8) {
+            break;
+        }
+        text += rest.substr(0, at + (at == bar ? 2 : 1)) + "\n";
+        rest = std::string(indent + 4, ' ') + rest.substr(at + (at == bar ? 3 : 2));
+    }
+    return text + rest + "\n";
+}
+
 void CodeBlock::line(std::string_view text) {
-    text_ += text.empty() ? "\n" : fmt::format("{}{}\n", indent_, text);
+    text_ += text.empty() ? "\n" : wrapped(indent_ + std::string(text));
 }
 
 Value CodeBlock::name(std::string_view name, const Value& value) {
@@ -163,6 +183,16 @@ Value CodeBlock::name(std::string_view name, const Value& value) {
     }
     line(fmt::format("const {} {} = {};", value.grey ? "real" : "rgb", name, value.text));
     return value.grey ? Value::real(std::string(name)) : Value::rgb(std::string(name));
+}
+
+Value CodeBlock::name_colour(std::string_view name, const Value& value) {
+    if (!value.known || value.grey || !value.text.empty()) {
+        return this->name(name, value);
+    }
+    line(fmt::format("const rgb {} = {};", name, rgb_text(value)));
+    Value named = value;
+    named.text = name;
+    return named;
 }
 
 } // namespace clshade

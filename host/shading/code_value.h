@@ -14,7 +14,7 @@ struct Value {
     bool known = true;
     bool grey = true; ///< one component for all channels
     glm::dvec3 number{0.0};
-    std::string text; ///< of an expression
+    std::string text; ///< of an expression; of a number that stands in the code under a name: the name
     /// How tightly the expression binds: an operand of `*` must be at least a product.
     enum class Binding { sum, product, atom } binding = Binding::atom;
 
@@ -48,14 +48,20 @@ struct Value {
 /// A float literal that gives the same number back: "0.1f", "512.0f".
 [[nodiscard]] std::string float_literal(double number);
 
+/// Breaks a line at 120 columns after commas and before operators; continuation lines are indented by four more.
+[[nodiscard]] std::string wrapped(std::string_view line);
+
 /// Lines of a function's body.
 class CodeBlock {
   public:
     explicit CodeBlock(int indent) : indent_(static_cast<std::size_t>(indent), ' ') {}
 
+    /// One statement, wrapped at 120 columns.
     void line(std::string_view text);
     /// Gives an expression a name, so that it is evaluated once. Known numbers and plain names stay what they are.
     [[nodiscard]] Value name(std::string_view name, const Value& value);
+    /// The same, and three known numbers get a name too.
+    [[nodiscard]] Value name_colour(std::string_view name, const Value& value);
     [[nodiscard]] const std::string& text() const { return text_; }
 
   private:

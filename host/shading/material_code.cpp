@@ -13,8 +13,8 @@ namespace clshade {
 
 namespace {
 
-constexpr std::string_view arguments = "inputs in, surface s, results out, __constant const FrameConstants* frame,\n"
-                                       "    __global const LightConstants* lights";
+constexpr std::string_view arguments = "inputs in, surface s, results out, __constant const FrameConstants* frame, "
+                                       "__global const LightConstants* lights";
 
 /// A name as it may stand in a comment.
 std::string comment_text(const std::string& name) {
@@ -60,51 +60,61 @@ std::string layer_comment(const Frame& frame, const BoundMaterial& material, std
     return text + "\n";
 }
 
-/// What of the light is reflected: share times light, added to `sum` unless that is empty.
-std::string reflected(const LightSum& sum, const std::string& so_far) {
-    const std::string share = sum.share.grey ? real_text(sum.share) : rgb_text(sum.share);
-    if (so_far.empty()) {
-        return fmt::format("{}({}, {})", sum.share.grey ? "scale_rgb" : "multiply_rgb", sum.light, share);
-    }
-    return sum.share.grey ? fmt::format("add_share({}, {}, {})", so_far, sum.light, share)
-                          : fmt::format("multiply_add_rgb({}, {}, {})", sum.light, share, so_far);
+/// What of the light is reflected: share times light.
+std::string reflected(const LightSum& sum) {
+    return sum.share.grey ? fmt::format("scale_rgb({}, {})", sum.light, real_text(sum.share))
+                          : fmt::format("multiply_rgb({}, {})", sum.light, rgb_text(sum.share));
 }
 
-/// The diffuse or specular part: every sum with its colour. `prefix` + name is the variable that holds it.
-std::string part(const std::vector<LightSum>& sums, bool diffuse, std::string_view prefix) {
-    Value total = Value::of(0.0);
-    for (const LightSum& sum_of : sums) {
-        if (sum_of.diffuse == diffuse) {
-            total = sum(total, product(sum_of.colour, Value::rgb(fmt::format("{}{}", prefix, sum_of.name))));
+std::string add_reflected(const LightSum& sum) {
+    const std::string variable = "sum_" + sum.name;
+    const std::string text =
+        sum.share.grey ? fmt::format("add_share({}, {}, {})", variable, sum.light, real_text(sum.share))
+                       : fmt::format("multiply_add_rgb({}, {}, {})", sum.light, rgb_text(sum.share), variable);
+    return fmt::format("{} = {};", variable, text);
+}
+
+/// The lines that add up the diffuse or the specular part, each sum times its colour. `term` gives the code of a sum.
+template <class Term>
+void add_part(CodeBlock& block, const std::string& part, bool diffuse, const std::vector<LightSum>& sums, Term term) {
+    std::string type = "rgb ";
+    for (const LightSum& sum : sums) {
+        if (sum.diffuse != diffuse) {
+            continue;
         }
+        const std::string value = term(sum);
+        if (!type.empty()) {
+            block.line(fmt::format("{}{} = {};", type, part, rgb_text(product(sum.colour, Value::rgb(value)))));
+        } else if (sum.colour.is(1.0)) {
+            block.line(fmt::format("{0} = add_rgb({0}, {1});", part, value));
+        } else {
+            block.line(fmt::format("{0} = multiply_add_rgb({1}, {2}, {0});", part, rgb_text(sum.colour), value));
+        }
+        type.clear();
     }
-    return rgb_text(total);
-}
-
-std::string radiance_text(const std::vector<LightSum>& sums, std::string_view prefix) {
-    return fmt::format("make_radiance({}, {})", part(sums, true, prefix), part(sums, false, prefix));
+    if (!type.empty()) {
+        block.line(fmt::format("rgb {} = grey(splat(0.0f));", part));
+    }
 }
 
 std::string loop_text(const StackCode& code) {
-    std::string text;
-    for (const LightSum& sum_of : code.sums()) {
-        text += fmt::format("    rgb sum_{} = grey(splat(0.0f));\n", sum_of.name);
+    CodeBlock before(4);
+    for (const LightSum& sum : code.sums()) {
+        before.line(fmt::format("rgb sum_{} = grey(splat(0.0f));", sum.name));
     }
-    text += "    for (int k = 0; k < frame->light_count; ++k) {\n"
-            "        const incidence i = incidence_of(s, lights + k);\n"
-            "        const rgb e0 = irradiance(lights + k, i);\n";
-    text += code.loop();
-    for (const LightSum& sum_of : code.sums()) {
-        const std::string variable = "sum_" + sum_of.name;
-        text += fmt::format("        {} = {};\n", variable, reflected(sum_of, variable));
+    CodeBlock loop(8);
+    for (const LightSum& sum : code.sums()) {
+        loop.line(add_reflected(sum));
     }
-    text += "#if OUTPUT_LIGHTS >= 0\n";
-    for (const LightSum& sum_of : code.sums()) {
-        text += fmt::format("        const rgb own_{} = {};\n", sum_of.name, reflected(sum_of, ""));
-    }
-    text +=
-        fmt::format("        store_light(out, mine, s, k, {});\n#endif\n    }}\n", radiance_text(code.sums(), "own_"));
-    return text;
+    CodeBlock own(8);
+    add_part(own, "own_diffuse", true, code.sums(), reflected);
+    add_part(own, "own_specular", false, code.sums(), reflected);
+    return before.text() +
+           "    for (int k = 0; k < frame->light_count; ++k) {\n"
+           "        const incidence i = incidence_of(s, lights + k);\n"
+           "        const rgb e0 = irradiance(lights + k, i);\n" +
+           code.loop() + loop.text() + "#if OUTPUT_LIGHTS >= 0\n" + own.text() +
+           "        store_light(out, mine, s, k, make_radiance(own_diffuse, own_specular));\n#endif\n    }\n";
 }
 
 std::string material_function(const Frame& frame, std::size_t index, std::vector<std::string>& warnings) {
@@ -116,17 +126,22 @@ std::string material_function(const Frame& frame, std::size_t index, std::vector
     for (std::size_t k = 0; k < material.layers.size(); ++k) {
         text += layer_comment(frame, material, k);
     }
-    text += fmt::format("static inline radiance shade_material_{}(mask mine, {}) {{\n", index, arguments);
+    text += wrapped(fmt::format("static inline radiance shade_material_{}(mask mine, {}) {{", index, arguments));
     text += code.setup() + "\n" + loop_text(code);
-    text += fmt::format("    radiance sum = {};\n", radiance_text(code.sums(), "sum_"));
-    const auto note = [&text](const char* field, const MaskNames& masks) {
+    CodeBlock end(4);
+    const auto sum_name = [](const LightSum& sum) { return "sum_" + sum.name; };
+    add_part(end, "diffuse", true, code.sums(), sum_name);
+    add_part(end, "specular", false, code.sums(), sum_name);
+    end.line("radiance sum = make_radiance(diffuse, specular);");
+    const auto note = [&end](const char* field, const MaskNames& masks) {
         if (!masks.empty()) {
-            text += fmt::format("    sum.{} = {};\n", field, fmt::join(masks, " | "));
+            end.line(fmt::format("sum.{} = {};", field, fmt::join(masks, " | ")));
         }
     };
     note("clamped", code.clamped());
     note("no_tangent", code.no_tangent());
-    return text + "    return sum;\n}\n\n";
+    end.line("return sum;");
+    return text + end.text() + "}\n\n";
 }
 
 std::string claim(const BoundMaterial& material, bool by_id) {
@@ -142,7 +157,7 @@ std::string claim(const BoundMaterial& material, bool by_id) {
 
 /// Which material each pixel goes to: those with claims in turn, the first for what is left.
 std::string material_choice(const Frame& frame) {
-    std::string text = fmt::format("static inline radiance shade_materials({}) {{\n", arguments);
+    std::string text = wrapped(fmt::format("static inline radiance shade_materials({}) {{", arguments));
     if (frame.materials.size() == 1) {
         return text + "    return shade_material_0(s.alive, in, s, out, frame, lights);\n}\n\n";
     }

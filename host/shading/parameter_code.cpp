@@ -75,7 +75,8 @@ Value ParameterReader::emission(const BoundParameter& parameter, const std::stri
 
 std::string ParameterReader::tangent(const BoundParameter& parameter) const {
     if (parameter.is_constant()) {
-        const glm::dvec3 t = glm::normalize(parameter.constant);
+        const double length = glm::length(parameter.constant);
+        const glm::dvec3 t = length > 0.0 ? parameter.constant / length : glm::dvec3(0.0);
         return fmt::format("make_vec3(splat({}), splat({}), splat({}))", float_literal(t.x), float_literal(t.y),
                            float_literal(t.z));
     }

@@ -62,6 +62,13 @@ std::string StackCode::name(std::string_view what, std::size_t k) const {
 }
 
 void StackCode::add_layer(std::size_t k) {
+    const BoundLayer& layer = material_->layers[k];
+    if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
+        const std::string tangents = name("tangents", k);
+        setup_.line(fmt::format("const tangent_frame {} = tangent_frame_of(s.n, {});", tangents,
+                                reader_.tangent(layer.tangent)));
+        no_tangent_.push_back(tangents + ".missing");
+    }
     const Interface interface = is_exact() ? exact_interface(k) : constant_interface(k);
     if (interface.present) {
         add_lobe(k, interface);
@@ -75,6 +82,7 @@ void StackCode::add_layer(std::size_t k) {
         refracted_ = bent_;
     }
     absorb(k);
+    inside_ = inside_ || all_positive(below_);
     medium_ = below_;
 }
 
@@ -131,7 +139,7 @@ StackCode::Interface StackCode::constant_interface(std::size_t k) {
                      ? Value::of(folded_reflectance(medium_.number, below_.number))
                      : setup_.name(name("r", k), call("normal_reflectance", {medium_, below_}));
     }
-    if (all_positive(medium_)) {
+    if (inside_) {
         return here; // never met from air
     }
     const bool all_known = here.r.known && amplitude_.known && medium_.known;
@@ -204,14 +212,10 @@ void StackCode::add_lobe(std::size_t k, const Interface& interface) {
     if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
         const Value u = reader_.shininess(layer.shininess_u, name("shininess_u", k));
         const Value v = reader_.shininess(layer.shininess_v, name("shininess_v", k));
-        const std::string frame = name("tangents", k);
-        setup_.line(
-            fmt::format("const tangent_frame {} = tangent_frame_of(s.n, {});", frame, reader_.tangent(layer.tangent)));
-        no_tangent_.push_back(frame + ".missing");
         normaliser = u.known && v.known ? Value::of(folded_normaliser_anisotropic(u.number.x, v.number.x))
                                         : call("normaliser_anisotropic", {u, v});
-        half_exponent =
-            Value::real(fmt::format("anisotropic_half_exponent(i, {}, {}, {})", frame, real_text(u), real_text(v)));
+        half_exponent = Value::real(
+            fmt::format("anisotropic_half_exponent(i, {}, {}, {})", name("tangents", k), real_text(u), real_text(v)));
     } else {
         const Value n = reader_.shininess(layer.shininess, name("shininess", k));
         normaliser = normaliser_value(n, is_exact() || layer.specular == SpecularModel::blinn_phong_exact);
@@ -275,7 +279,9 @@ void StackCode::absorb(std::size_t k) {
     if (material_->absorption == AbsorptionModel::none) {
         return;
     }
-    const Value absorption = reader_.absorption(material_->layers[k].absorption, name("absorption", k));
+    const std::string variable = name("absorption", k);
+    const Value absorption =
+        setup_.name_colour(variable, reader_.absorption(material_->layers[k].absorption, variable));
     if (all_zero(absorption)) {
         return;
     }
@@ -348,7 +354,7 @@ void StackCode::add_sum(bool diffuse, const std::string& name, const Value& shar
     }
     const std::string light = light_here();
     if (!colour.grey) {
-        sums_.push_back({name, setup_.name(name + "_colour", colour), diffuse, light, loop_.name(name, share)});
+        sums_.push_back({name, setup_.name_colour(name + "_colour", colour), diffuse, light, loop_.name(name, share)});
         return;
     }
     // Grey: multiplied in at once, so that shares of the same light need one sum only.

@@ -95,6 +95,7 @@ class StackCode {
     // State while going down.
     Value medium_ = Value::of(0.0);    ///< amplitude of the medium above the layer at hand
     Value amplitude_ = Value::of(0.0); ///< of the layer at hand, against air
+    bool inside_ = false;              ///< medium_ is above 0 in every channel of every pixel
     Value below_ = Value::of(0.0);     ///< of the medium below its interface
     Value refracted_ = Value::of(0.0); ///< exact model: cosine in the medium above, as `refracted` gives it
     Value bent_ = Value::of(0.0);      ///< exact model: the same in the medium below

@@ -42,11 +42,20 @@ inline std::string describe_worst(const Frame& frame, const reference::Compariso
     return text;
 }
 
+/// The tolerance of the least exact of the frame's materials.
+inline reference::Tolerance tolerance_of(const Frame& frame) {
+    reference::Tolerance loosest;
+    for (const BoundMaterial& material : frame.materials) {
+        const reference::Tolerance tolerance = reference::default_tolerance(material);
+        loosest = tolerance.rel > loosest.rel ? tolerance : loosest;
+    }
+    return loosest;
+}
+
 /// What single precision can reach, at every pixel: the default tolerance of `clshade check`.
 inline void expect_agreement(const ShadedImage& device, const reference::Image& expected, const Frame& frame,
                              const std::string& what) {
-    const BoundMaterial& material = frame.materials[0];
-    const auto tolerance = reference::default_tolerance(material.specular, material.diffuse);
+    const auto tolerance = tolerance_of(frame);
     const auto scale = reference::rounding_scale(frame, 2);
     for (int plane = 0; plane + 3 <= static_cast<int>(device.plane_names.size()); plane += plane == 0 ? 4 : 3) {
         const auto result = reference::compare(device.planes, expected, scale, tolerance, {}, plane, 3);
@@ -64,6 +73,7 @@ inline void expect_agreement(const ShadedImage& device, const reference::Image& 
     EXPECT_EQ(device.counts.nonfinite, expected.counts.nonfinite) << what;
     EXPECT_EQ(device.counts.clamped, expected.counts.clamped) << what;
     EXPECT_EQ(device.counts.fractional_ids, expected.counts.fractional_ids) << what;
+    EXPECT_EQ(device.counts.no_tangent, expected.counts.no_tangent) << what;
 }
 
 } // namespace clshade

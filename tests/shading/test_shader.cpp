@@ -29,6 +29,12 @@ std::string name_of_pair(const testing::TestParamInfo<std::tuple<SpecularModel, 
     return std::string(name_of(std::get<0>(pair.param))) + "_over_" + std::string(name_of(std::get<1>(pair.param)));
 }
 
+INSTANTIATE_TEST_SUITE_P(NewerLobes, EveryModel,
+                         testing::Combine(testing::Values(SpecularModel::blinn_phong_anisotropic,
+                                                          SpecularModel::blinn_phong_spectral),
+                                          testing::Values(DiffuseModel::none, DiffuseModel::oren_nayar)),
+                         name_of_pair);
+
 INSTANTIATE_TEST_SUITE_P(
     Pairs, EveryModel,
     testing::Combine(testing::Values(SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact),

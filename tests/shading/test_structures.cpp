@@ -1,9 +1,11 @@
 // Frames of every structure: views, spaces, planes, parameters, materials by id, input that is not finite.
-#include "host/shading/generated_source.h"
+#include "host/shading/frame_layout.h"
 #include "tests/shading/agreement.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -190,15 +192,15 @@ TEST(Structures, ConstantsGreyPlanesConversionsAndEmission) {
     };
     BoundMaterial& material = frame.materials[0];
     material.diffuse = DiffuseModel::oren_nayar;
-    material.f0 = BoundParameter{};
-    material.f0.constant = {0.9, 0.6, 0.3};
+    material.base().f0 = BoundParameter{};
+    material.base().f0.constant = {0.9, 0.6, 0.3};
     material.albedo = plane(extra + 2, Conversion::none, 0.5, 0.25);
     frame.emission = plane(extra + 3, Conversion::none, 1.0, 0.0);
     frame.has_emission = true;
-    material.shininess = plane(extra, Conversion::ggx_roughness, 1.0, 0.0);
+    material.base().shininess = plane(extra, Conversion::ggx_roughness, 1.0, 0.0);
     material.diffuse_shininess = plane(extra + 2, Conversion::oren_nayar_sigma, 1.0, 0.0);
     expect_device_agrees(frame, "roughness and sigma");
-    material.shininess = plane(extra + 1, Conversion::smoothness, 0.9, 0.05);
+    material.base().shininess = plane(extra + 1, Conversion::smoothness, 0.9, 0.05);
     material.diffuse_shininess = plane(extra + 2, Conversion::none, 40.0, 0.0);
     expect_device_agrees(frame, "smoothness, scaled");
     material.albedo = plane(extra + 2, Conversion::none, 3.0, -1.0);
@@ -217,7 +219,7 @@ TEST(Structures, MaterialsById) {
         BoundMaterial material = first;
         material.name = std::move(name);
         material.ids = std::move(ids);
-        material.specular = specular;
+        material.base().specular = specular;
         material.diffuse = diffuse;
         material.diffuse_shininess = BoundParameter{};
         material.diffuse_shininess.constant = glm::dvec3(6.0);
@@ -226,14 +228,52 @@ TEST(Structures, MaterialsById) {
     add("matte \"*/ \\", {1, 4}, SpecularModel::none, DiffuseModel::oren_nayar_full);
     add("exact", {2}, SpecularModel::blinn_phong_exact, DiffuseModel::oren_nayar_qualitative);
     add("mirror", {3}, SpecularModel::blinn_phong, DiffuseModel::none);
-    expect_device_agrees(frame, "four materials");
+    BoundMaterial coated = frame.materials[2];
+    coated.name = "coated";
+    coated.ids = {5};
+    coated.layers.insert(coated.layers.begin(), BoundLayer{});
+    coated.layers[0].specular = SpecularModel::blinn_phong;
+    coated.layers[0].f0.constant = glm::dvec3(0.04);
+    coated.layers[0].shininess.constant = glm::dvec3(300.0);
+    coated.layers[0].absorption.constant = {0.1, 0.02, 0.0};
+    coated.absorption = AbsorptionModel::original;
+    frame.materials.push_back(coated);
+    expect_device_agrees(frame, "five materials");
 
     const AovSelection aovs = {.diffuse = true, .specular = true, .lights = true};
-    expect_agreement(shade(frame, 8, aovs), reference::shade(frame, aovs, 2), frame, "four materials with AOVs");
+    expect_agreement(shade(frame, 8, aovs), reference::shade(frame, aovs, 2), frame, "five materials with AOVs");
 
     frame.planes.at(id, 7, 7) = 2.4F;
     const reference::Image expected = reference::shade(frame, {}, 2);
     EXPECT_EQ(expected.counts.fractional_ids, shade(frame, 16).counts.fractional_ids);
+}
+
+TEST(Structures, MaterialsByCryptomatteNameInOrder) {
+    PlaneIndex name = no_plane;
+    Frame frame = with_planes(base_frame(), 2, name);
+    const PlaneIndex id = name + 1;
+    frame.roles.material_id = id;
+    const std::array<std::uint32_t, 4> hashes = {0xf0666addU, 0x17ab1474U, 0x648c7d28U, 0x80000001U};
+    for_each_pixel([&](int x, int y) {
+        frame.planes.at(name, x, y) = std::bit_cast<float>(hashes[static_cast<std::size_t>(x / 4 + y) % hashes.size()]);
+        frame.planes.at(id, x, y) = static_cast<float>(y % 3);
+    });
+    const BoundMaterial first = frame.materials[0];
+    for (std::size_t k = 0; k < hashes.size(); ++k) {
+        BoundMaterial material = first;
+        material.name = "m" + std::to_string(k);
+        material.base().f0 = BoundParameter{};
+        material.base().f0.constant = glm::dvec3(0.1 + 0.2 * static_cast<double>(k));
+        material.cryptomatte = {{material.name, name, hashes[k]}};
+        if (k == 1) {
+            material.ids = {2}; // claims pixels that the third and fourth name, too: the first in the list has them
+        }
+        frame.materials.push_back(material);
+    }
+    const reference::Image expected = reference::shade(frame, {}, 2);
+    EXPECT_EQ(expected.material[0], 1);
+    EXPECT_EQ(expected.material[2 * width + 4], 2);
+    expect_device_agrees(frame, "by name and id");
 }
 
 TEST(Structures, EveryPlaneIsWatchedForNanAndInf) {
