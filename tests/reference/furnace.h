@@ -17,10 +17,8 @@ inline glm::dvec3 eye_at(double ne) {
 
 /// Integral of f_cos over the hemisphere of L for a lobe about H, midpoint rule in u = (N.H)^(n+1) and the azimuth of
 /// H: dw_L = 4 E.H dw_H, and (n + 1) (N.H)^n / 2 pi is the density of H.
-inline double reflectance_of_lobe(const Lobe& f_cos, double n, double ne) {
+inline double reflectance_of_lobe(const Lobe& f_cos, double n, double ne, int rings = 500, int sectors = 160) {
     constexpr double pi = std::numbers::pi;
-    constexpr int rings = 500;
-    constexpr int sectors = 160;
     const glm::dvec3 eye = eye_at(ne);
     double sum = 0.0;
     for (int i = 0; i < rings; ++i) {
@@ -41,10 +39,8 @@ inline double reflectance_of_lobe(const Lobe& f_cos, double n, double ne) {
 }
 
 /// The same for a diffuse model, midpoint rule in the angle of L and its azimuth.
-inline double reflectance_of_diffuse(const Lobe& f_cos, double ne) {
+inline double reflectance_of_diffuse(const Lobe& f_cos, double ne, int rings = 200, int sectors = 100) {
     constexpr double pi = std::numbers::pi;
-    constexpr int rings = 200;
-    constexpr int sectors = 100;
     const glm::dvec3 eye = eye_at(ne);
     double sum = 0.0;
     for (int i = 0; i < rings; ++i) {
