@@ -5,7 +5,6 @@ namespace clshade {
 namespace {
 
 using testing::ElementsAre;
-using testing::HasSubstr;
 using testing::IsEmpty;
 
 Material only_material(const std::string& text) {

@@ -68,7 +68,7 @@ TEST(ModelCatalog, ParametersWithoutADefaultMustBeWritten) {
             rest.erase("ior");
             rest.erase(parameter.name);
             const bool needed = parameter.fallback.starts_with("must be written");
-            EXPECT_EQ(error_of(scene_with(info, rest)) != "", needed) << info.name << " without " << parameter.name;
+            EXPECT_EQ(error_of(scene_with(info, rest)).empty(), !needed) << info.name << " without " << parameter.name;
         }
     }
 }

@@ -2,6 +2,8 @@
 #include "host/scene/model_catalog.h"
 #include "tests/scene/support.h"
 
+#include <fmt/format.h>
+
 #include <set>
 
 namespace clshade {
@@ -27,7 +29,7 @@ TEST(Presets, AreWhatAUserCouldWrite) {
         // The text pasted into a scene and the preset taken by name are one material.
         const std::string claim = "material." + name + ".ids=[1]";
         const Scene pasted = parse(head + std::string(preset.toml), {claim});
-        const Scene named = parse(head + "[material." + name + "]\nids = [1]\npreset = '" + name + "'\n");
+        const Scene named = parse(head + fmt::format("[material.{0}]\nids = [1]\npreset = '{0}'\n", name));
         const Material& a = pasted.materials.at(1);
         const Material& b = named.materials.at(1);
         EXPECT_EQ(a.fresnel, b.fresnel) << name;
