@@ -140,11 +140,21 @@ TomlArray* layers_of(TomlTable& root, const std::string& material) {
     return list == nullptr || list->empty() ? nullptr : list;
 }
 
-/// Leads material.NAME.diffuse (and material.NAME.specular of a single layer) to the layer that has it.
+/// Leads material.NAME.diffuse (and material.NAME.specular of a single layer) to the layer that has it. Throws where
+/// the path leads into layers that the material lacks, or could mean several.
 std::vector<std::string> into_layers(TomlTable& root, std::vector<std::string> path, const SourceLocation& where) {
-    const bool names_lobe =
-        path.size() >= 3 && path[0] == "material" && (path[2] == "specular" || path[2] == "diffuse");
-    const TomlArray* layers = names_lobe ? layers_of(root, path[1]) : nullptr;
+    if (path.size() < 3 || path[0] != "material") {
+        return path;
+    }
+    const TomlArray* layers = layers_of(root, path[1]);
+    if (layers == nullptr && path[2] == "layer" && path.size() > 3) {
+        fail(where, fmt::format("material '{0}' is not written as layers; write material.{0}.specular or "
+                                "material.{0}.diffuse, or set all layers at once: material.{0}.layer=[{{...}}, ...]",
+                                path[1]));
+    }
+    if (path[2] != "specular" && path[2] != "diffuse") {
+        return path;
+    }
     if (layers == nullptr) {
         return path;
     }

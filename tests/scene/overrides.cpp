@@ -76,6 +76,8 @@ TEST(Overrides, FindTheLayerOfALobe) {
                 StartsWith("--set material.a.specular.f0=0.3: material 'a' has 2 layers"));
     EXPECT_THAT(error_of(two, {"material.a.layer.2.specular.f0=0.3"}),
                 HasSubstr("'layer' has no element '2'; it has 2, counted from 0"));
+    EXPECT_THAT(error_of(with_material, {"material.default.layer.0.specular.f0=0.3"}),
+                HasSubstr("material 'default' is not written as layers; write material.default.specular"));
 }
 
 TEST(Overrides, ObeyTheSameRules) {
