@@ -21,7 +21,8 @@ struct RoundingScale {
     std::array<std::vector<double>, 3> shift;
 };
 
-/// Evaluates the reference around each pixel, on `threads` threads. About twenty times the work of `shade`.
+/// Evaluates the reference around each pixel, on `threads` threads. About twenty times the work of `shade`, thirty for
+/// deep stacks.
 [[nodiscard]] RoundingScale rounding_scale(const Frame& frame, int threads);
 
 } // namespace clshade::reference

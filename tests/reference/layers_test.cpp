@@ -186,10 +186,9 @@ TEST(Stack, MetalsReflectTheirSpectrum) {
 TEST(Stack, ThreeLayersAsWrittenDown) {
     const Angles a = vector_angles(50.0, 40.0, 120.0);
     const std::array<double, 3> n{1.33, 1.8, 1.4};
-    std::vector<LayerValues> layers;
-    for (const double index : n) {
-        layers.push_back(layer_of_index(SpecularModel::blinn_phong_exact, index, 30.0));
-    }
+    std::vector<LayerValues> layers{layer_of_index(SpecularModel::blinn_phong_exact, n[0], 30.0),
+                                    layer_of_index(SpecularModel::blinn_phong_exact, n[1], 30.0),
+                                    layer_of_index(SpecularModel::blinn_phong_exact, n[2], 30.0)};
     layers[0].absorption = glm::dvec3(0.1);
     layers[1].absorption = glm::dvec3(0.07);
     const double r0 = f0_between(1.0, n[0]);
