@@ -31,16 +31,52 @@ std::string_view short_name(const Cryptomatte& cryptomatte) {
     return std::string_view(cryptomatte.name).substr(cryptomatte.name.rfind('.') + 1);
 }
 
-void read_manifest(Cryptomatte& cryptomatte, const std::string& text) {
-    constexpr bool with_exceptions = false;
-    const nlohmann::json manifest = nlohmann::json::parse(text, nullptr, with_exceptions);
-    if (!manifest.is_object()) { // also what parse makes of damaged text
-        cryptomatte.trouble = "its manifest is no JSON object";
-        return;
+/// Takes {"name": "id", ...} and stops at anything nested, so that no text, however hostile, costs more memory than a
+/// few times its length.
+class ManifestReader : public nlohmann::json_sax<nlohmann::json> {
+  public:
+    explicit ManifestReader(Cryptomatte& cryptomatte) : cryptomatte_(cryptomatte) {}
+
+    bool null() override { return other(); }
+    bool boolean(bool /*value*/) override { return other(); }
+    bool number_integer(number_integer_t /*value*/) override { return other(); }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return other(); }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return other(); }
+    bool binary(binary_t& /*value*/) override { return other(); }
+    bool string(string_t& value) override { return take(std::move(value)); }
+    bool key(string_t& value) override {
+        name_ = std::move(value);
+        return true;
     }
-    for (const auto& [name, id] : manifest.items()) {
-        // What is no text is no id; its digits must not pass for one.
-        cryptomatte.manifest.emplace(name, id.is_string() ? id.get<std::string>() : "not a text");
+    bool start_object(std::size_t /*elements*/) override { return !std::exchange(inside_, true); }
+    bool end_object() override { return true; }
+    bool start_array(std::size_t /*elements*/) override { return false; }
+    bool end_array() override { return false; }
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;
+    }
+
+  private:
+    /// What is no text is no id; its digits must not pass for one.
+    bool other() { return take("not a text"); }
+    bool take(std::string id) {
+        if (inside_) {
+            cryptomatte_.manifest.insert_or_assign(std::move(name_), std::move(id));
+        }
+        return inside_;
+    }
+
+    Cryptomatte& cryptomatte_;
+    std::string name_;
+    bool inside_ = false;
+};
+
+void read_manifest(Cryptomatte& cryptomatte, const std::string& text) {
+    ManifestReader reader(cryptomatte);
+    if (!nlohmann::json::sax_parse(text, &reader)) {
+        cryptomatte.manifest.clear(); // the rest cannot be trusted either
+        cryptomatte.trouble = "its manifest is no JSON object of names and ids";
     }
 }
 
