@@ -12,6 +12,7 @@ namespace clshade::cli {
 namespace {
 
 constexpr int alpha_plane = 3;
+constexpr std::size_t longest_name = 72; // of the table; reports have it whole
 
 // Alpha is a plane's value clamped: the same float on both sides, or next to it.
 const reference::Tolerance alpha_tolerance = reference::Tolerance::plain(1.2e-7, 0.0, 100.0);
@@ -134,10 +135,11 @@ std::string check_table(const std::vector<CheckResult>& results) {
         if (t.per_roundoff > 0.0 || t.per_irradiance > 0.0) {
             tolerance = fmt::format("{:g} rel + {:g} light + {:g} roundings", t.rel, t.per_irradiance, t.per_roundoff);
         }
-        table.add_row({result.model, std::to_string(c.pixels), format_error(c.max_rel), format_error(c.rms_rel),
-                       format_error(c.p99_rel), format_error(c.p999_rel), format_error(c.max_abs),
-                       format_error(c.rms_abs), fmt::format("{:.0f}", c.max_ulp), std::to_string(c.outside),
-                       fmt::format("{} for {:g} %", tolerance, t.percentile), result.pass ? "pass" : "FAIL"});
+        table.add_row({shortened(result.model, longest_name), std::to_string(c.pixels), format_error(c.max_rel),
+                       format_error(c.rms_rel), format_error(c.p99_rel), format_error(c.p999_rel),
+                       format_error(c.max_abs), format_error(c.rms_abs), fmt::format("{:.0f}", c.max_ulp),
+                       std::to_string(c.outside), fmt::format("{} for {:g} %", tolerance, t.percentile),
+                       result.pass ? "pass" : "FAIL"});
     }
     return table.text();
 }

@@ -3,6 +3,7 @@
 #include "host/base/hash.h"
 #include "host/cli/table.h"
 #include "host/images/image_reader.h"
+#include "host/scene/metal_table.h"
 #include "host/scene/scene_file.h"
 
 #include <fmt/format.h>
@@ -32,6 +33,20 @@ void append_unique(std::vector<std::string>& all, const std::vector<std::string>
     }
 }
 
+// Files that metals were read from; relative names start at the scene's folder.
+std::vector<std::filesystem::path> metal_files(const Scene& scene) {
+    std::vector<std::filesystem::path> files;
+    for (const Material& material : scene.materials) {
+        for (const Layer& layer : material.layers) {
+            const std::string& name = layer.specular.metal.name;
+            if (layer.specular.model == SpecularModel::blinn_phong_spectral && !built_in_metal(name)) {
+                files.push_back(std::filesystem::path(scene.file).parent_path() / name);
+            }
+        }
+    }
+    return files;
+}
+
 } // namespace
 
 ChosenScene choose_scene(const SceneOptions& options) {
@@ -43,6 +58,11 @@ ChosenScene choose_scene(const SceneOptions& options) {
     std::string identity = options.file.empty() ? "default" : text_of(options.file);
     for (const std::string& assignment : options.overrides) {
         identity += "\n--set " + assignment;
+    }
+    chosen.tables = metal_files(chosen.scene);
+    for (const std::filesystem::path& table : chosen.tables) {
+        identity += '\n';
+        identity += text_of(table.string());
     }
     chosen.hash = hash_hex(identity + "\n--model " + options.model);
     return chosen;

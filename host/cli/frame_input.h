@@ -16,9 +16,10 @@ namespace clshade::cli {
 /// A scene and what the output says about it.
 struct ChosenScene {
     Scene scene;
-    std::string name; ///< file name, or "default"
-    std::string hash; ///< of the file's text and the overrides
-    std::string file; ///< empty for the default scene
+    std::string name;                          ///< file name, or "default"
+    std::string hash;                          ///< of the file's text, the overrides and the tables
+    std::string file;                          ///< empty for the default scene
+    std::vector<std::filesystem::path> tables; ///< n,k files of metals
 };
 
 /// Reads --scene, or takes the default scene; --set and --model applied. Throws like read_scene.

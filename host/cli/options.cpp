@@ -97,7 +97,8 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
                    "override one key of the scene, e.g. material.default.specular.shininess=32; may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
-    app.add_option("--model", options.model, "specular or diffuse model of the default material; see `clshade models`")
+    app.add_option("--model", options.model,
+                   "specular or diffuse model of the default material; its keys by --set; see `clshade models`")
         ->type_name("NAME");
     app.add_option("--view", options.view, "view of a stereo file. Default: the first")->type_name("NAME");
 }

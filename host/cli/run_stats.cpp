@@ -69,9 +69,10 @@ std::string RunStats::text() const {
     add_stage("total", total);
     std::string text = stages.text();
     if (!kernels_.empty()) {
+        constexpr std::size_t longest_key = 80;
         Table kernels({{"kernel", Align::left}, {"launches"}, {"total [ms]"}, {"per launch [ms]"}, {"GB/s"}});
         for (const auto& [key, sum] : kernels_) {
-            kernels.add_row({key, std::to_string(sum.launches), format_ms(sum.milliseconds),
+            kernels.add_row({shortened(key, longest_key), std::to_string(sum.launches), format_ms(sum.milliseconds),
                              format_ms(sum.milliseconds / sum.launches),
                              fmt::format("{:.2f}", sum.bytes / std::max(sum.milliseconds, 1e-9) * 1e-6)});
         }

@@ -2,10 +2,12 @@
 
 #include "host/base/error.h"
 #include "host/cli/stopwatch.h"
+#include "host/shading/material_code.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace clshade::cli {
@@ -18,7 +20,9 @@ std::string reason_to_skip(const FrameJob& job, const ChosenScene& scene, const 
     if (settings.no_clobber && std::filesystem::exists(job.output, ignored)) {
         return "the output exists (--no-clobber)";
     }
-    if (settings.update_only && is_up_to_date(job.output, {job.input, scene.file})) {
+    std::vector<std::filesystem::path> sources{job.input, scene.file};
+    sources.insert(sources.end(), scene.tables.begin(), scene.tables.end());
+    if (settings.update_only && is_up_to_date(job.output, sources)) {
         return "the output is up to date (-u)";
     }
     return {};
@@ -37,6 +41,17 @@ std::string plan_text(const PlannedInput& input, const FrameJob& job, const Chos
         text += fmt::format("  material {}: {}\n", material.name, model_key(material));
     }
     return text + "\n" + roles_text(input);
+}
+
+// Of metals whose curves are not exact; other materials have none.
+std::vector<std::string> material_warnings(const Frame& frame) {
+    const auto is_spectral = [](const BoundLayer& layer) {
+        return layer.specular == SpecularModel::blinn_phong_spectral;
+    };
+    const bool any = std::any_of(frame.materials.begin(), frame.materials.end(), [&](const BoundMaterial& material) {
+        return std::any_of(material.layers.begin(), material.layers.end(), is_spectral);
+    });
+    return any ? materials_source(frame).warnings : std::vector<std::string>{};
 }
 
 double sum_of(const std::vector<KernelTime>& kernels) {
@@ -78,6 +93,10 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
     outcome.stages.add("read", watch.lap());
 
     progress.update("shading " + name, 0.3);
+    if (settings.kernel_dump != nullptr) {
+        settings.kernel_dump->add(shader, loaded.frame); // before the build, so that one that fails can be read
+        outcome.stages.add("dump", watch.lap());
+    }
     const ShadedImage shaded = shader.shade(loaded.frame);
     const double shading = watch.lap();
     const double kernel = sum_of(shaded.kernel_times);
@@ -101,6 +120,9 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
     }
     outcome.stages.add("write", watch.lap());
     outcome.warnings = std::move(loaded.warnings);
+    for (std::string& warning : material_warnings(loaded.frame)) {
+        outcome.warnings.push_back(std::move(warning));
+    }
     if (too_large > 0) {
         outcome.warnings.push_back(fmt::format("{}: {} values beyond 65504 do not fit in half and were clamped; write "
                                                "-d float",
@@ -130,9 +152,10 @@ std::vector<std::string> count_warnings(const std::string& file, const PixelCoun
             fmt::format("{}: {} pixels with a parameter out of its range; it was clamped", file, counts.clamped));
     }
     if (counts.no_tangent > 0) {
-        warnings.push_back(fmt::format("{}: {} pixels of anisotropic materials have a tangent that is missing or parallel "
-                                       "to the normal; a frame around the normal stands in",
-                                       file, counts.no_tangent));
+        warnings.push_back(
+            fmt::format("{}: {} pixels of anisotropic materials have a tangent that is missing or parallel "
+                        "to the normal; a frame around the normal stands in",
+                        file, counts.no_tangent));
     }
     return warnings;
 }

@@ -3,6 +3,7 @@
 
 #include "host/cli/frame_input.h"
 #include "host/cli/frame_output.h"
+#include "host/cli/kernel_dump.h"
 #include "host/cli/progress.h"
 #include "host/cli/run_stats.h"
 #include "host/cli/session.h"
@@ -23,6 +24,7 @@ struct ShadeSettings {
     bool update_only = false; ///< -u
     bool no_clobber = false;
     bool dry_run = false;
+    KernelDump* kernel_dump = nullptr; ///< --dump-kernel; null: none
     int threads = 1;
 };
 
@@ -53,7 +55,7 @@ struct FrameOutcome {
 /// Throws UsageError when material ids are not whole numbers: such a plane has been filtered and would mix materials.
 void refuse_filtered_ids(const std::string& file, const PixelCounts& counts);
 
-/// Warnings for what was counted: non-finite and clamped pixels.
+/// Warnings for what was counted: non-finite and clamped pixels, tangents that are none.
 [[nodiscard]] std::vector<std::string> count_warnings(const std::string& file, const PixelCounts& counts);
 
 } // namespace clshade::cli

@@ -79,6 +79,16 @@ std::string wrap(std::string_view text, std::size_t width, std::size_t indent) {
     return wrapped;
 }
 
+std::string shortened(std::string_view text, std::size_t width) {
+    constexpr std::string_view gap = "...";
+    if (text.size() <= width) {
+        return std::string(text);
+    }
+    const std::size_t front = (width - gap.size()) / 3;
+    const std::size_t back = width - gap.size() - front;
+    return fmt::format("{}{}{}", text.substr(0, front), gap, text.substr(text.size() - back));
+}
+
 std::string format_ms(double milliseconds) {
     if (milliseconds >= 1000.0) {
         return fmt::format("{:.0f}", milliseconds);

@@ -33,6 +33,10 @@ class Table {
 /// Breaks `text` at blanks into lines of at most `width` characters; lines after the first start with `indent` blanks.
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t width, std::size_t indent);
 
+/// `text` with its middle left out for "..." where it is longer than `width` characters (at least 8): a third of what
+/// fits comes from the front. ASCII.
+[[nodiscard]] std::string shortened(std::string_view text, std::size_t width);
+
 /// Milliseconds with a precision a reader can use: 0.123, 12.3, 1234.
 [[nodiscard]] std::string format_ms(double milliseconds);
 /// Error sizes: "0" or "1.23e-07".

@@ -19,21 +19,38 @@ frame found on disk is shaded. A frame that fails does not stop the others.
 Without --scene: albedo role (else 0.5), f0 role (else 0.04), roughness or shininess role (else shininess 64), and
 three lights over the camera's shoulders. `clshade inspect INPUT` tells which channels play which role.
 
+Materials are stacks of one to eight layers and claim pixels by `ids` (material_id plane) or `names` (Cryptomatte); the
+rest goes to material.default. `clshade models` lists lobes, diffuse models, stack keys and presets. --model takes any of
+the models by itself; one that needs keys of its own (blinn_phong_anisotropic, blinn_phong_spectral) gets them by --set.
+
 OUTPUT.exr holds R, G, B (radiance), A (coverage) and what --aov and --keep ask for; OUTPUT.png is a preview for the
 screen. An output is written under a temporary name and renamed when it is complete.
+
+--dump-kernel: of a sequence the first frame's program lies in DIR, further ones with other planes or materials in
+DIR/2, DIR/3, ...; start reading at shade.cl and materials.cl.
 
 Examples:
   clshade shade in.exr -o out.exr
   clshade shade in.exr -o preview.png --set material.default.specular.shininess=200
+  clshade shade in.exr -o out.exr --set material.default.preset=skin
+  clshade shade in.exr -o out.exr --model blinn_phong_spectral --set material.default.specular.metal=copper
+  clshade shade in.exr -o out.exr --model blinn_phong_anisotropic --set material.default.specular.shininess_u=20 \
+      --set material.default.specular.shininess_v=400
+  clshade shade in.exr -o out.exr --scene look.toml --dump-kernel kernel
   clshade shade in.####.exr -o out.####.exr --scene look.toml --frames 1-100x2 -u
   clshade shade in.#.exr -o out.#.exr --chunk 2/8 --progress openjd --json report.json)";
 
 constexpr std::string_view check_details =
     R"(With INPUT: shades it on the device and with the scalar double-precision reference and compares every pixel, grouped
-by the material's pair of models. Without INPUT: a seeded random G-buffer for every pair of specular and diffuse model.
+by what the material is made of. Without INPUT: a seeded random G-buffer for every lobe with every diffuse model, single
+layers with exact Fresnel, stacks of two to eight layers, random stacks (--seed) and every preset.
 
-A value agrees when |device - reference| <= REL * |reference| + ABS. A pair passes when at least PERCENTILE percent of
-its pixels agree and the hard limits of its models hold. Ends with 3 when any pair fails.
+A row is called after its stack: LOBE.DIFFUSE, or layersN.LOBES.DIFFUSE.FRESNEL.ABSORPTION with the lobes from the top
+down; @NAME tells a preset or a random stack. Long names are shortened in the table, whole in --json.
+
+A value agrees when |device - reference| <= REL * |reference| + ABS. A row passes when at least PERCENTILE percent of
+its pixels agree, the hard limits of its models hold, and both sides count the same pixels as non-finite and as without
+a tangent. Ends with 3 when any row fails.
 
 Examples:
   clshade check
@@ -67,9 +84,17 @@ Example:
 constexpr std::string_view devices_details =
     R"(The index, any part of 'platform/name' that fits one device only, or cpu | gpu is what --device takes.)";
 
-constexpr std::string_view models_details = R"(Examples:
+constexpr std::string_view models_details =
+    R"(Lists lobes, diffuse models, the keys that hold a stack of layers together, and presets: whole materials to start from.
+`clshade models NAME` documents each parameter with unit, range, default and source, and prints a preset as TOML.
+
+Thumbnails are shaded by this very program: a turned body in a studio of many small lights.
+
+Examples:
   clshade models
-  clshade models oren_nayar)";
+  clshade models oren_nayar
+  clshade models skin
+  clshade models --thumbnails docs/presets)";
 
 constexpr std::array<Verb, 8> table{{
     {"shade", "INPUT -o OUTPUT [--scene S.toml] [--frames 1-100x2] [flags]", "shades one G-buffer or a sequence",
@@ -85,8 +110,8 @@ constexpr std::array<Verb, 8> table{{
     {"demo", "[DIR] [flags]", "writes a synthetic G-buffer sequence and a scene, then shades them", demo_details,
      declare_demo},
     {"devices", "[flags]", "lists the OpenCL devices that can run clshade", devices_details, declare_devices},
-    {"models", "[NAME] [flags]", "lists the shading models with parameters, ranges and sources", models_details,
-     declare_models},
+    {"models", "[NAME] [flags]", "lists the shading models and presets with parameters, ranges and sources",
+     models_details, declare_models},
 }};
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "host/base/error.h"
 #include "host/cli/check_frame.h"
 #include "host/cli/check_image.h"
+#include "host/cli/check_suite.h"
 #include "host/cli/log_level.h"
 #include "host/cli/progress.h"
 #include "host/cli/report_json.h"
@@ -8,31 +9,17 @@
 #include "host/cli/session.h"
 #include "host/cli/stopwatch.h"
 #include "host/cli/verb.h"
-#include "host/gbuffer/random_gbuffer.h"
-#include "host/scene/model_catalog.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <array>
 #include <memory>
 #include <utility>
 
 namespace clshade::cli {
 
 namespace {
-
-constexpr std::array<SpecularModel, 3> speculars{SpecularModel::none, SpecularModel::blinn_phong,
-                                                 SpecularModel::blinn_phong_exact};
-constexpr std::array<DiffuseModel, 8> diffuses{DiffuseModel::none,
-                                               DiffuseModel::lambert,
-                                               DiffuseModel::oren_nayar,
-                                               DiffuseModel::oren_nayar_full,
-                                               DiffuseModel::oren_nayar_qualitative,
-                                               DiffuseModel::oren_nayar_simplified_1,
-                                               DiffuseModel::oren_nayar_simplified_2,
-                                               DiffuseModel::oren_nayar_shininess};
 
 struct CheckOptions {
     CommonOptions common;
@@ -42,7 +29,7 @@ struct CheckOptions {
     std::string abs;
     std::string percentile;
     std::string dump;
-    std::string size = "256x256";
+    std::string size = "192x192";
 };
 
 ToleranceOverride override_of(const CheckOptions& options) {
@@ -61,6 +48,12 @@ ToleranceOverride override_of(const CheckOptions& options) {
     }
     return wanted;
 }
+
+// What a frame's only material is called in reports and in --dump. Empty: materials go by their model_key.
+struct Naming {
+    std::string name;
+    std::string layer;
+};
 
 // Runs one or many comparisons and tells of them.
 class CheckRun {
@@ -100,25 +93,21 @@ class CheckRun {
 
     void every_model() {
         const Size size = parse_size("--size", options_.size);
-        Progress progress(options_.common, static_cast<int>(speculars.size() * diffuses.size()) - 1);
-        for (const SpecularModel specular : speculars) {
-            for (const DiffuseModel diffuse : diffuses) {
-                if (specular == SpecularModel::none && diffuse == DiffuseModel::none) {
-                    continue; // black
-                }
-                Stopwatch watch;
-                Frame frame = random_frame(size.width, size.height, specular, diffuse, options_.common.seed);
-                const std::string name = model_key(frame.materials.front());
-                progress.update("comparing " + name);
-                StageTimes stages;
-                stages.add("random G-buffer", watch.lap());
-                compare(frame, name, std::move(stages));
-                progress.step();
-            }
+        const std::vector<SuiteCase> suite = check_suite(options_.common.seed);
+        Progress progress(options_.common, static_cast<int>(suite.size()));
+        for (const SuiteCase& suite_case : suite) {
+            Stopwatch watch;
+            Frame frame = frame_of(suite_case, size.width, size.height, options_.common.seed);
+            StageTimes stages;
+            stages.add("random G-buffer", watch.lap());
+            const std::string name = name_of(suite_case, frame);
+            progress.update("comparing " + name);
+            compare(frame, {name, layer_of(suite_case, frame)}, std::move(stages));
+            progress.step();
         }
     }
 
-    void compare(Frame& frame, const std::string& layer, StageTimes stages) {
+    void compare(Frame& frame, const Naming& naming, StageTimes stages) {
         Stopwatch watch;
         Shader& shader = session_.shader({});
         report_.set_device(session_.info());
@@ -136,16 +125,18 @@ class CheckRun {
         stages.add("reference", watch.lap());
         for (CheckResult& result : check_frame(frame, shaded, expected, wanted_, threads)) {
             // Without INPUT the empty pixels of all random frames are the same; they stand in each one's row.
-            const bool merge = !layer.empty() && result.model == "no_surface";
-            if (merge && result.pass) {
+            const bool empty = result.model == "no_surface";
+            if (!naming.name.empty() && empty && result.pass) {
                 continue;
             }
-            result.model = merge ? layer + ".no_surface" : result.model;
+            if (!naming.name.empty()) {
+                result.model = empty ? naming.name + ".no_surface" : naming.name;
+            }
             results_.push_back(std::move(result));
         }
         compare_counts(shaded.counts, expected.counts);
         if (!options_.dump.empty()) {
-            dump_.add(layer, frame, shaded, expected);
+            dump_.add(naming.layer, frame, shaded, expected);
         }
         stages.add("compare", watch.lap());
         stats_.add(stages);
@@ -199,7 +190,7 @@ class CheckRun {
 Action declare_check(CLI::App& app) {
     auto options = std::make_shared<CheckOptions>();
     CheckOptions* o = options.get();
-    app.add_option("INPUT", o->input, "G-buffer EXR. Default: a random G-buffer for every pair of models");
+    app.add_option("INPUT", o->input, "G-buffer EXR. Default: random G-buffers for every model there is");
     add_scene_options(app, o->scene);
     app.add_option("--rel", o->rel, "largest relative error; replaces the models' defaults together with --abs")
         ->type_name("X");
@@ -208,7 +199,7 @@ Action declare_check(CLI::App& app) {
     app.add_option("--percentile", o->percentile, "share of pixels that must be within tolerance. Default: 99.99")
         ->type_name("PERCENT");
     app.add_option("--dump", o->dump, "write device.*, reference.* and error.* planes as EXR")->type_name("FILE");
-    app.add_option("--size", o->size, "size of the random G-buffers in pixels. Default: 256x256")->type_name("WxH");
+    app.add_option("--size", o->size, "size of the random G-buffers in pixels. Default: 192x192")->type_name("WxH");
     add_common_options(app, o->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);

@@ -1,8 +1,11 @@
 #include "host/base/suggest.h"
 #include "host/cli/log_level.h"
+#include "host/cli/models_text.h"
 #include "host/cli/options.h"
+#include "host/cli/progress.h"
 #include "host/cli/report_json.h"
-#include "host/cli/table.h"
+#include "host/cli/session.h"
+#include "host/cli/thumbnails.h"
 #include "host/cli/verb.h"
 #include "host/scene/model_catalog.h"
 
@@ -17,77 +20,67 @@ namespace clshade::cli {
 
 namespace {
 
-constexpr std::size_t text_width = 100;
-constexpr std::size_t label_width = 11;
-
 struct ModelsOptions {
     CommonOptions common;
     std::string name;
+    std::string thumbnails;
 };
 
-nlohmann::json json_of(const ModelInfo& model) {
-    nlohmann::json parameters = nlohmann::json::array();
-    for (const ParameterInfo& parameter : model.parameters) {
-        parameters.push_back({{"name", parameter.name},
-                              {"unit", parameter.unit},
-                              {"range", parameter.range},
-                              {"default", parameter.fallback}});
+[[noreturn]] void refuse_name(const std::string& name) {
+    std::vector<std::string_view> names;
+    for (const ModelInfo& model : model_catalog()) {
+        names.push_back(model.name);
     }
-    return {{"model", model.name},    {"kind", model.kind},     {"summary", model.summary},
-            {"source", model.source}, {"advice", model.advice}, {"parameters", parameters}};
-}
-
-void add_to(JsonReport& report, const ModelInfo& model) {
-    report.add(json_of(model));
-}
-
-std::string overview_of(std::span<const ModelInfo> models) {
-    Table table({{"model", Align::left}, {"kind", Align::left}, {"summary", Align::left}});
-    for (const ModelInfo& model : models) {
-        table.add_row({std::string(model.name), std::string(model.kind), std::string(model.summary)});
+    for (const PresetInfo& preset : preset_catalog()) {
+        names.push_back(preset.name);
     }
-    return table.text() + "\n`clshade models NAME` shows parameters, ranges and source.\n";
+    throw UsageError(fmt::format("models: '{}' is no model and no preset{}; `clshade models` lists them", name,
+                                 did_you_mean(name, std::span<const std::string_view>(names))));
 }
 
-std::string page_of(const ModelInfo& model) {
-    const auto line = [](std::string_view label, std::string_view text) {
-        return text.empty()
-                   ? std::string()
-                   : fmt::format("{:<{}}{}\n", label, label_width, wrap(text, text_width - label_width, label_width));
-    };
-    std::string page = fmt::format("{} ({})\n\n", model.name, model.kind);
-    page += line("what", model.summary) + line("when", model.advice) + line("source", model.source);
-    if (!model.parameters.empty()) {
-        Table table(
-            {{"parameter", Align::left}, {"unit", Align::left}, {"range", Align::left}, {"default", Align::left}});
-        for (const ParameterInfo& parameter : model.parameters) {
-            table.add_row({std::string(parameter.name), std::string(parameter.unit), std::string(parameter.range),
-                           std::string(parameter.fallback)});
+ExitCode make_thumbnails(const ModelsOptions& options, JsonReport& report) {
+    if (!options.name.empty()) {
+        throw UsageError(
+            fmt::format("models: --thumbnails makes the pictures of all presets; leave '{}' out", options.name));
+    }
+    Session session(options.common);
+    report.set_device(session.info());
+    Progress progress(options.common, static_cast<int>(preset_catalog().size()));
+    write_thumbnails(options.thumbnails, preset_catalog(), session, options.common.host_threads(),
+                     [&](const std::filesystem::path& file) { progress.update("shading " + file.string()); });
+    progress.clear();
+    for (const PresetInfo& preset : preset_catalog()) {
+        const std::string file = thumbnail_file(options.thumbnails, preset).string();
+        report.add({{"model", preset.name}, {"kind", "preset"}, {"output", file}});
+        if (!options.common.quiet) {
+            fmt::print("{} -> {}\n", preset.name, file);
         }
-        page += "\n" + table.text();
     }
-    return page;
+    return ExitCode::ok;
 }
 
 ExitCode show(const ModelsOptions& options, JsonReport& report) {
-    const std::span<const ModelInfo> models = model_catalog();
-    std::string text;
-    std::vector<std::string_view> names;
-    for (const ModelInfo& model : models) {
-        names.push_back(model.name);
-        if (options.name.empty() || options.name == model.name) {
-            add_to(report, model);
-            text += options.name.empty() ? "" : page_of(model);
-        }
+    if (!options.thumbnails.empty()) {
+        return make_thumbnails(options, report);
     }
-    if (options.name.empty()) {
-        text = overview_of(models);
-    } else if (text.empty()) {
-        throw UsageError(fmt::format("models: '{}' is not a model{}; `clshade models` lists them", options.name,
-                                     did_you_mean(options.name, std::span<const std::string_view>(names))));
+    std::string pages;
+    const auto add = [&](const auto& entry) {
+        if (options.name.empty() || options.name == entry.name) {
+            report.add(json_of(entry));
+            pages += page_of(entry);
+        }
+    };
+    for (const ModelInfo& model : model_catalog()) {
+        add(model);
+    }
+    for (const PresetInfo& preset : preset_catalog()) {
+        add(preset);
+    }
+    if (pages.empty()) {
+        refuse_name(options.name);
     }
     if (!options.common.quiet) {
-        fmt::print("{}", text);
+        fmt::print("{}", options.name.empty() ? catalog_text() : pages);
     }
     return ExitCode::ok;
 }
@@ -96,8 +89,11 @@ ExitCode show(const ModelsOptions& options, JsonReport& report) {
 
 Action declare_models(CLI::App& app) {
     auto options = std::make_shared<ModelsOptions>();
-    app.add_option("NAME", options->name, "show this model only, with its parameters");
-    add_common_options(app, options->common, CommonGroup::reporting);
+    app.add_option("NAME", options->name, "show this model or preset only, with its parameters");
+    app.add_option("--thumbnails", options->thumbnails,
+                   "shade a picture of every preset into DIR/NAME.png, 256x256 pixels, and stop")
+        ->type_name("DIR");
+    add_common_options(app, options->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);
         return with_report(options->common, "models", [&](JsonReport& report) { return show(*options, report); });

@@ -30,6 +30,7 @@ struct ShadeOptions {
     std::string aovs;
     std::string keep;
     std::string chunk;
+    std::string dump_kernel;
     bool update_only = false;
     bool no_clobber = false;
     bool skip_bad_frames = false;
@@ -118,6 +119,7 @@ nlohmann::json json_of(const FrameJob& job, const FrameOutcome& outcome) {
     result["pixels"] = static_cast<std::int64_t>(outcome.width) * outcome.height;
     result["nonfinite"] = outcome.counts.nonfinite;
     result["clamped"] = outcome.counts.clamped;
+    result["no_tangent"] = outcome.counts.no_tangent;
     result["warnings"] = outcome.warnings;
     return result;
 }
@@ -131,7 +133,8 @@ class ShadeRun {
   public:
     ShadeRun(const ShadeOptions& options, JsonReport& report, std::vector<FrameJob> jobs)
         : options_(options), report_(report), settings_(settings_of(options)), scene_(choose_scene(options.scene)),
-          jobs_(std::move(jobs)), session_(options.common), progress_(options.common, static_cast<int>(jobs_.size())) {}
+          dump_(options.dump_kernel, options.common.kernel_dir), jobs_(std::move(jobs)), session_(options.common),
+          progress_(options.common, static_cast<int>(jobs_.size())) {}
 
     ExitCode run() {
         refuse_what_png_cannot();
@@ -241,6 +244,7 @@ class ShadeRun {
     JsonReport& report_;
     ShadeSettings settings_;
     ChosenScene scene_;
+    KernelDump dump_;
     std::vector<FrameJob> jobs_;
     Session session_;
     Progress progress_;
@@ -285,7 +289,12 @@ Action declare_shade(CLI::App& app) {
     app.add_flag("--skip-bad-frames", o->skip_bad_frames,
                  "count frames with a missing or unreadable file as skipped, with a warning; the exit code is 4");
     app.add_option("--chunk", o->chunk, "shade only part I of N of the frames")->type_name("I/N");
-    app.add_flag("-n,--dry-run", o->dry_run, "say what would be done and with which channels; write nothing");
+    app.add_option("--dump-kernel", o->dump_kernel,
+                   "also write the program as it is built (generated files among them) and options.txt into DIR, to be "
+                   "read; existing files are replaced")
+        ->type_name("DIR");
+    app.add_flag("-n,--dry-run", o->dry_run,
+                 "say what would be done and with which channels; write nothing, no kernel either");
     add_common_options(app, o->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);

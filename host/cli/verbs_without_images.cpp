@@ -1,5 +1,6 @@
 // Stand-ins for the verbs that need image files, in builds without them (CLSHADE_IMAGES=OFF).
 #include "host/cli/check_image.h"
+#include "host/cli/thumbnails.h"
 #include "host/cli/verb.h"
 
 #include <CLI/CLI.hpp>
@@ -43,5 +44,11 @@ void check_dump_path(const std::filesystem::path& /*file*/, const std::filesyste
 void ErrorDump::add(const std::string& /*layer*/, const Frame& /*frame*/, const ShadedImage& /*shaded*/,
                     const reference::Image& /*expected*/) {}
 void ErrorDump::write(const std::filesystem::path& /*file*/, int /*threads*/) const {}
+
+void write_thumbnails(const std::filesystem::path& /*folder*/, std::span<const PresetInfo> /*presets*/,
+                      Session& /*session*/, int /*threads*/,
+                      const std::function<void(const std::filesystem::path&)>& /*told*/) {
+    throw UsageError("models --thumbnails: this build has no image files; configure with -DCLSHADE_IMAGES=ON");
+}
 
 } // namespace clshade::cli
