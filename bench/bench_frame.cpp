@@ -16,6 +16,7 @@ namespace {
 constexpr double picture_height = 4.0; ///< world units across the picture's height
 constexpr double eye_distance = 6.0;
 constexpr int id_tile = 16;
+constexpr int id_count = 4;
 
 /// A sum of three waves along one axis, and its slope, for each pixel of that axis.
 struct Waves {
@@ -92,27 +93,6 @@ View bench_view(int width, int height) {
     return view;
 }
 
-BoundParameter from_planes(int first, int count) {
-    BoundParameter parameter;
-    parameter.planes = {first, first + (count > 1 ? 1 : 0), first + (count > 1 ? 2 : 0)};
-    parameter.averaged = false; // no coverage plane, nothing to divide by
-    return parameter;
-}
-
-BoundMaterial material_of(std::string name, std::vector<std::int64_t> ids, SpecularModel specular,
-                          DiffuseModel diffuse) {
-    BoundMaterial material;
-    material.name = std::move(name);
-    material.ids = std::move(ids);
-    material.base().specular = specular;
-    material.base().f0 = from_planes(9, 3);
-    material.base().shininess = from_planes(12, 1);
-    material.diffuse = diffuse;
-    material.albedo = from_planes(6, 3);
-    material.diffuse_shininess = from_planes(12, 1);
-    return material;
-}
-
 Light light_of(LightType type, const std::string& name, glm::dvec3 direction, glm::dvec3 power) {
     Light light;
     light.name = name;
@@ -160,10 +140,10 @@ Frame make_bench_frame(int width, int height, std::uint64_t seed) {
     frame.data_window = {0, 0, width - 1, height - 1};
     frame.display_window = frame.data_window;
     frame.planes = PlaneSlab(width, height, bench_planes);
-    frame.plane_names = {"N.X",      "N.Y",      "N.Z",  "P.X",  "P.Y",  "P.Z",       "albedo.R",
-                         "albedo.G", "albedo.B", "f0.R", "f0.G", "f0.B", "shininess", "id"};
-    frame.roles.normal = {0, 1, 2};
-    frame.roles.position = {3, 4, 5};
+    frame.plane_names = {"N.X",      "N.Y",  "N.Z",  "P.X",  "P.Y",       "P.Z", "albedo.R",    "albedo.G",
+                         "albedo.B", "f0.R", "f0.G", "f0.B", "shininess", "id",  "id.scattered"};
+    frame.roles.normal = {bench_normal, bench_normal + 1, bench_normal + 2};
+    frame.roles.position = {bench_position, bench_position + 1, bench_position + 2};
     frame.view = bench_view(width, height);
 
     Random random(seed);
@@ -177,6 +157,7 @@ Frame make_bench_frame(int width, int height, std::uint64_t seed) {
         blend_y[i] = make_blend(height, 1.3 + 0.5 * static_cast<double>(i), random);
     }
 
+    Random scatter(seed + 1);
     for (int y = 0; y < height; ++y) {
         const auto row = static_cast<std::size_t>(y);
         for (int x = 0; x < width; ++x) {
@@ -193,13 +174,21 @@ Frame make_bench_frame(int width, int height, std::uint64_t seed) {
             const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), glm::dvec3(0.95, 0.8, 0.5), metal * metal);
             const double shininess = std::exp2(3.0 + 5.0 * blend(1));
             const std::array<double, bench_planes> values = {
-                point.normal.x, point.normal.y,
-                point.normal.z, position.x,
-                position.y,     position.z,
-                albedo.r,       albedo.g,
-                albedo.b,       f0.r,
-                f0.g,           f0.b,
-                shininess,      static_cast<double>((x / id_tile + 3 * (y / id_tile)) % 4 + 1)};
+                point.normal.x,
+                point.normal.y,
+                point.normal.z,
+                position.x,
+                position.y,
+                position.z,
+                albedo.r,
+                albedo.g,
+                albedo.b,
+                f0.r,
+                f0.g,
+                f0.b,
+                shininess,
+                static_cast<double>((x / id_tile + 3 * (y / id_tile)) % id_count + 1),
+                1.0 + std::floor(id_count * scatter.next())};
             for (int p = 0; p < bench_planes; ++p) {
                 frame.planes.at(p, x, y) = static_cast<float>(values[static_cast<std::size_t>(p)]);
             }
@@ -211,18 +200,14 @@ Frame make_bench_frame(int width, int height, std::uint64_t seed) {
 
 void apply_scene(Frame& frame, const BenchScene& scene) {
     frame.lights = lights_of(scene.lights);
-    if (!scene.mixed) {
-        frame.roles.material_id = no_plane;
-        frame.materials = {material_of("default", {}, scene.specular, scene.diffuse)};
-        return;
+    frame.materials = scene.materials;
+    frame.roles.material_id = no_plane;
+    if (scene.materials.size() > 1) {
+        frame.roles.material_id = scene.ids == BenchIds::tiles ? bench_tile_ids : bench_scattered_ids;
+        for (std::size_t i = 0; i < frame.materials.size(); ++i) {
+            frame.materials[i].ids = {static_cast<std::int64_t>(i) + 1};
+        }
     }
-    frame.roles.material_id = bench_parameter_planes;
-    frame.materials = {
-        material_of("default", {1}, SpecularModel::blinn_phong, DiffuseModel::lambert),
-        material_of("rough", {2}, SpecularModel::blinn_phong, DiffuseModel::oren_nayar),
-        material_of("exact", {3}, SpecularModel::blinn_phong_exact, DiffuseModel::lambert),
-        material_of("exact rough", {4}, SpecularModel::blinn_phong_exact, DiffuseModel::oren_nayar_shininess),
-    };
 }
 
 } // namespace clshade

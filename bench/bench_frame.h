@@ -1,6 +1,7 @@
 // What the benches shade: a smooth made-up picture, and the variants of scene that the rows ask for.
 #pragma once
 
+#include "bench/bench_materials.h"
 #include "host/gbuffer/frame.h"
 
 #include <cstdint>
@@ -8,19 +9,28 @@
 
 namespace clshade {
 
-/// Planes of the bench frame in order: normal 0-2, position 3-5, albedo 6-8, f0 9-11, shininess 12, material id 13.
-/// Rows with one material read the first 13.
+// Planes of the bench frame: first one of each parameter. Rows with one material read some of the first 13, rows with
+// several one of the id planes too.
+inline constexpr int bench_normal = 0;
+inline constexpr int bench_position = 3;
+inline constexpr int bench_albedo = 6;
+inline constexpr int bench_f0 = 9;
+inline constexpr int bench_shininess = 12;
 inline constexpr int bench_parameter_planes = 13;
-inline constexpr int bench_planes = 14;
+inline constexpr int bench_tile_ids = 13;      ///< 1 to 4, each tile of 16x16 pixels has one
+inline constexpr int bench_scattered_ids = 14; ///< 1 to 4 by chance, each pixel its own
+inline constexpr int bench_planes = 15;
 
 enum class BenchLights { distant1, distant8, point1, spot1 };
 
+/// Which pixels have which material, where there are several: the plane of ids that the frame reads.
+enum class BenchIds { tiles, scattered };
+
 /// The scene side of a row.
 struct BenchScene {
-    SpecularModel specular = SpecularModel::blinn_phong;
-    DiffuseModel diffuse = DiffuseModel::lambert;
+    std::vector<BoundMaterial> materials = {single_layer()}; ///< several: the first takes the pixels with id 1, ...
     BenchLights lights = BenchLights::distant1;
-    bool mixed = false; ///< four materials by id in 16x16 tiles; the models above are not used
+    BenchIds ids = BenchIds::tiles; ///< of no meaning for one material
 };
 
 /// Waves and a grid of spheres seen in perspective; no coverage and no depth plane, every pixel has a surface. Smooth

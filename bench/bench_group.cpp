@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace clshade {
@@ -35,6 +35,22 @@ RoundSettings round_settings(const BenchOptions& options, std::size_t rows) {
     return settings;
 }
 
+int deepest_stack(const Frame& frame) {
+    std::size_t deepest = 0;
+    for (const BoundMaterial& material : frame.materials) {
+        deepest = std::max(deepest, material.layers.size());
+    }
+    return static_cast<int>(deepest);
+}
+
+/// Fills in a rival's figures.
+void compare(RivalResult& rival, std::span<const double> theirs, std::span<const double> ours) {
+    rival.rounds = static_cast<int>(theirs.size());
+    rival.median_ms = median(theirs);
+    rival.min_ms = percentile(theirs, 0.0);
+    rival.ratio = paired_ratio(ours, theirs);
+}
+
 void fail(BenchResult& result, const std::string& reason) {
     result.status = BenchStatus::error;
     result.reason = reason;
@@ -46,22 +62,32 @@ BenchGroup::BenchGroup(Device& device, const BenchOptions& options, std::vector<
     : device_(&device), options_(options), frame_(make_bench_frame(rows.at(0).width, rows.at(0).height, options.seed)),
       shader_(device, kernel_sources(options.kernel_dir), ProgramCache::standard(), shader_options(options)),
       maker_(device, frame_, host_threads(device, options), shader_.lanes()) {
-    const BenchRow lambert = lambert_row(rows.at(0).width, rows.at(0).height);
-    const bool has_lambert =
-        std::any_of(rows.begin(), rows.end(), [&](const BenchRow& row) { return row.name == lambert.name; });
-    const bool wants_lambert =
-        std::any_of(rows.begin(), rows.end(), [](const BenchRow& row) { return row.against_lambert; });
     for (BenchRow& row : rows) {
         Entrant entrant;
         entrant.row = std::move(row);
         entrants_.push_back(std::move(entrant));
     }
-    if (wants_lambert && !has_lambert) {
-        Entrant baseline;
-        baseline.row = lambert;
-        baseline.row.rivals.clear();
-        baseline.reported = false;
-        entrants_.push_back(std::move(baseline));
+    add_missing_baselines();
+}
+
+void BenchGroup::add_missing_baselines() {
+    const std::size_t own = entrants_.size();
+    for (std::size_t i = 0; i < own; ++i) {
+        const std::vector<BenchBaseline> baselines = entrants_[i].row.baselines;
+        for (const BenchBaseline& baseline : baselines) {
+            for (const BenchScene& scene : baseline.scenes) {
+                if (find(row_name(scene)) != nullptr) {
+                    continue;
+                }
+                Entrant entrant;
+                entrant.row.name = row_name(scene);
+                entrant.row.width = width();
+                entrant.row.height = height();
+                entrant.row.scene = scene;
+                entrant.reported = false;
+                entrants_.push_back(std::move(entrant));
+            }
+        }
     }
 }
 
@@ -87,6 +113,7 @@ void BenchGroup::prepare_row(Entrant& entrant) {
     check_against_reference(image.planes);
     entrant.prepared = std::make_shared<PreparedFrame>(shader_.prepare(frame_));
     entrant.result.lights = static_cast<int>(frame_.lights.size());
+    entrant.result.layers = deepest_stack(frame_);
     entrant.contestant = contestants_.size();
     contestants_.push_back({entrant.row.key(), [prepared = entrant.prepared] {
                                 prepared->launch();
@@ -196,33 +223,46 @@ BenchResult BenchGroup::result_of(const Entrant& entrant) const {
     result.mpix_per_s = pixels * 1e-3 / result.median_ms;
     result.gb_per_s = bytes * 1e-6 / result.median_ms;
 
-    const auto add = [&](RivalResult rival, std::size_t contestant) {
-        if (rival.status == BenchStatus::ok) {
-            const Timings& theirs = timings_.at(contestant);
-            if (theirs.error.empty()) {
-                rival.rounds = static_cast<int>(theirs.milliseconds.size());
-                rival.median_ms = median(theirs.milliseconds);
-                rival.min_ms = percentile(theirs.milliseconds, 0.0);
-                rival.ratio = paired_ratio(ours.milliseconds, theirs.milliseconds);
-            } else {
-                rival.status = BenchStatus::error;
-                rival.reason = theirs.error;
-            }
-        }
-        result.against.push_back(std::move(rival));
-    };
     for (const Pairing& pairing : entrant.pairings) {
-        add(pairing.result, pairing.contestant);
+        result.against.push_back(measured(pairing.result, pairing.contestant, ours));
     }
-    if (entrant.row.against_lambert) {
-        const Entrant* lambert = find(lambert_row(result.width, result.height).name);
-        RivalResult baseline;
-        baseline.name = lambert->row.key();
-        baseline.status = lambert->result.status;
-        baseline.reason = lambert->result.reason;
-        add(std::move(baseline), lambert->contestant);
+    for (const BenchBaseline& baseline : entrant.row.baselines) {
+        result.against.push_back(measured(baseline, ours));
     }
     return result;
+}
+
+RivalResult BenchGroup::measured(RivalResult rival, std::size_t contestant, const Timings& ours) const {
+    if (rival.status != BenchStatus::ok) {
+        return rival;
+    }
+    const Timings& theirs = timings_.at(contestant);
+    if (theirs.error.empty()) {
+        compare(rival, theirs.milliseconds, ours.milliseconds);
+    } else {
+        rival.status = BenchStatus::error;
+        rival.reason = theirs.error;
+    }
+    return rival;
+}
+
+RivalResult BenchGroup::measured(const BenchBaseline& baseline, const Timings& ours) const {
+    RivalResult rival;
+    std::vector<std::span<const double>> theirs;
+    for (const BenchScene& scene : baseline.scenes) {
+        const Entrant& entrant = *find(row_name(scene));
+        rival.name = baseline.name.empty() ? entrant.row.key() : baseline.name;
+        const Timings* timings = timings_of(entrant.row.name);
+        if (timings == nullptr) {
+            const std::string& reason = entrant.result.reason;
+            rival.status = BenchStatus::error;
+            rival.reason = reason.empty() ? timings_.at(entrant.contestant).error : reason;
+            return rival;
+        }
+        theirs.emplace_back(timings->milliseconds);
+    }
+    compare(rival, mean_by_rounds(theirs), ours.milliseconds);
+    return rival;
 }
 
 const BenchGroup::Entrant* BenchGroup::find(std::string_view row) const {
@@ -231,18 +271,27 @@ const BenchGroup::Entrant* BenchGroup::find(std::string_view row) const {
     return found == entrants_.end() ? nullptr : &*found;
 }
 
+const Timings* BenchGroup::timings_of(std::string_view row) const {
+    const Entrant* entrant = find(row);
+    if (entrant == nullptr || entrant->contestant == none || entrant->result.status != BenchStatus::ok) {
+        return nullptr;
+    }
+    const Timings& timings = timings_.at(entrant->contestant);
+    return timings.error.empty() ? &timings : nullptr;
+}
+
+std::optional<double> BenchGroup::median_ms(std::string_view row) const {
+    const Timings* timings = timings_of(row);
+    return timings == nullptr ? std::nullopt : std::optional(median(timings->milliseconds));
+}
+
 std::optional<double> BenchGroup::ratio(std::string_view row, std::string_view baseline) const {
-    const Entrant* ours = find(row);
-    const Entrant* theirs = find(baseline);
-    if (ours == nullptr || theirs == nullptr || ours->contestant == none || theirs->contestant == none) {
+    const Timings* ours = timings_of(row);
+    const Timings* theirs = timings_of(baseline);
+    if (ours == nullptr || theirs == nullptr) {
         return std::nullopt;
     }
-    const Timings& a = timings_.at(ours->contestant);
-    const Timings& b = timings_.at(theirs->contestant);
-    if (!a.error.empty() || !b.error.empty()) {
-        return std::nullopt;
-    }
-    return paired_ratio(a.milliseconds, b.milliseconds);
+    return paired_ratio(ours->milliseconds, theirs->milliseconds);
 }
 
 } // namespace clshade

@@ -24,7 +24,11 @@ class BenchGroup {
 
     /// One per row, in their order.
     [[nodiscard]] std::vector<BenchResult> results() const;
-    /// Paired ratio of two rows of this group by name ("shade.blinn_phong.lambert.distant1"), if both were timed.
+    [[nodiscard]] int width() const { return frame_.planes.width(); }
+    [[nodiscard]] int height() const { return frame_.planes.height(); }
+    /// Median of a row of this group by name ("shade.blinn_phong.lambert.distant1"), if it was timed.
+    [[nodiscard]] std::optional<double> median_ms(std::string_view row) const;
+    /// Paired ratio of two rows, if both were timed.
     [[nodiscard]] std::optional<double> ratio(std::string_view row, std::string_view baseline) const;
 
   private:
@@ -37,7 +41,7 @@ class BenchGroup {
     };
     struct Entrant {
         BenchRow row;
-        bool reported = true; ///< false: only here as the baseline of others
+        bool reported = true; ///< false: only others are measured against it
         BenchResult result;
         std::size_t contestant = none;
         std::shared_ptr<PreparedFrame> prepared;
@@ -48,12 +52,18 @@ class BenchGroup {
         double max_error = 0.0;
     };
 
+    /// Takes rows in that only others are measured against.
+    void add_missing_baselines();
     void prepare_row(Entrant& entrant);
     void check_against_reference(const PlaneSlab& picture) const;
     [[nodiscard]] Pairing pair_with(Rival rival, const Entrant& entrant, const PlaneSlab& picture);
     [[nodiscard]] Known enter(RivalEntry entry, const std::string& name, const PlaneSlab& picture);
     [[nodiscard]] BenchResult result_of(const Entrant& entrant) const;
+    [[nodiscard]] RivalResult measured(RivalResult rival, std::size_t contestant, const Timings& ours) const;
+    [[nodiscard]] RivalResult measured(const BenchBaseline& baseline, const Timings& ours) const;
     [[nodiscard]] const Entrant* find(std::string_view row) const;
+    /// Null unless the row was timed without an error.
+    [[nodiscard]] const Timings* timings_of(std::string_view row) const;
 
     Device* device_;
     BenchOptions options_;

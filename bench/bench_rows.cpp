@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <regex>
+#include <utility>
 
 namespace clshade {
 
@@ -37,37 +38,94 @@ std::string_view name_of(BenchLights lights) {
     return "?";
 }
 
-BenchRow row_of(const BenchScene& scene, std::vector<Rival> rivals, bool against_lambert) {
+BenchScene scene_of(BoundMaterial material, BenchLights lights = BenchLights::distant1) {
+    return {.materials = {std::move(material)}, .lights = lights, .ids = BenchIds::tiles};
+}
+
+BenchScene coated_scene(int coats, AbsorptionModel absorption) {
+    return scene_of(coated(coats, FresnelModel::constant, absorption));
+}
+
+/// Four materials of different stacks.
+std::vector<BoundMaterial> mixed_materials() {
+    return {single_layer(), coated(1, FresnelModel::constant, AbsorptionModel::approximated),
+            single_layer(SpecularModel::blinn_phong_anisotropic), skin()};
+}
+
+BenchRow row_of(BenchScene scene, std::vector<Rival> rivals) {
     BenchRow row;
-    row.name = scene.mixed ? fmt::format("shade.mixed4.{}", name_of(scene.lights))
-                           : fmt::format("shade.{}.{}.{}", name_of(scene.specular), name_of(scene.diffuse),
-                                         name_of(scene.lights));
-    row.width = deck_width;
-    row.height = deck_height;
-    row.scene = scene;
+    row.name = row_name(scene);
+    row.scene = std::move(scene);
     row.rivals = std::move(rivals);
-    row.against_lambert = against_lambert;
     return row;
 }
 
-/// Every row at its own size, in the order of the report.
-std::vector<BenchRow> all_rows() {
-    std::vector<BenchRow> rows = {lambert_row(large_width, large_height), lambert_row(deck_width, deck_height)};
-    const auto add = [&rows](SpecularModel specular, DiffuseModel diffuse, BenchLights lights,
-                             std::vector<Rival> rivals) {
-        rows.push_back(row_of({specular, diffuse, lights, false}, std::move(rivals), true));
-    };
-    using enum DiffuseModel;
-    add(SpecularModel::blinn_phong, lambert, BenchLights::distant8,
-        {Rival::stream_opencl, Rival::stream_cpp, Rival::hand_simd, Rival::reference});
-    add(SpecularModel::blinn_phong, lambert, BenchLights::point1, streams);
-    add(SpecularModel::blinn_phong, lambert, BenchLights::spot1, streams);
-    for (const DiffuseModel diffuse : {oren_nayar, oren_nayar_full, oren_nayar_qualitative, oren_nayar_simplified_1,
-                                       oren_nayar_simplified_2, oren_nayar_shininess}) {
-        add(SpecularModel::blinn_phong, diffuse, BenchLights::distant1, streams);
+BenchRow against_lambert(BenchScene scene, std::vector<Rival> rivals = streams) {
+    BenchRow row = row_of(std::move(scene), std::move(rivals));
+    row.baselines.push_back({"", {BenchScene{}}});
+    return row;
+}
+
+BenchRow mixed_row(BenchIds ids) {
+    BenchRow row = row_of({.materials = mixed_materials(), .lights = BenchLights::distant1, .ids = ids}, streams);
+    BenchBaseline alone{std::string(mean_alone), {}};
+    for (const BoundMaterial& material : row.scene.materials) {
+        alone.scenes.push_back(scene_of(material));
     }
-    add(SpecularModel::blinn_phong_exact, lambert, BenchLights::distant1, streams);
-    rows.push_back(row_of({.mixed = true}, streams, true));
+    row.baselines.push_back(std::move(alone));
+    return row;
+}
+
+/// Rows at both sizes: what the limits of speed are about.
+std::vector<BenchRow> main_rows() {
+    using enum AbsorptionModel;
+    std::vector<BenchRow> rows = {row_of({}, all_rivals)};
+    rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong, DiffuseModel::oren_nayar))));
+    for (const AbsorptionModel absorption : {none, approximated, original}) {
+        rows.push_back(against_lambert(coated_scene(1, absorption)));
+    }
+    for (const int coats : {3, most_coats}) {
+        rows.push_back(against_lambert(coated_scene(coats, approximated)));
+    }
+    rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong_anisotropic))));
+    rows.push_back(against_lambert(scene_of(skin())));
+    rows.push_back(mixed_row(BenchIds::tiles));
+    rows.push_back(mixed_row(BenchIds::scattered));
+    return rows;
+}
+
+/// Rows at the deck's size only.
+std::vector<BenchRow> further_rows() {
+    using enum DiffuseModel;
+    std::vector<BenchRow> rows;
+    rows.push_back(against_lambert(scene_of(single_layer(), BenchLights::distant8),
+                                   {Rival::stream_opencl, Rival::stream_cpp, Rival::hand_simd, Rival::reference}));
+    rows.push_back(against_lambert(scene_of(single_layer(), BenchLights::point1)));
+    rows.push_back(against_lambert(scene_of(single_layer(), BenchLights::spot1)));
+    for (const DiffuseModel diffuse : {oren_nayar_full, oren_nayar_qualitative, oren_nayar_simplified_1,
+                                       oren_nayar_simplified_2, oren_nayar_shininess}) {
+        rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong, diffuse))));
+    }
+    rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong_exact))));
+    rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong_spectral, DiffuseModel::none))));
+    rows.push_back(against_lambert(scene_of(coated(1, FresnelModel::exact, AbsorptionModel::original)),
+                                   {Rival::stream_opencl, Rival::stream_cpp, Rival::reference}));
+    return rows;
+}
+
+/// Every row at its own size, sizes together, in the order of the report.
+std::vector<BenchRow> all_rows() {
+    std::vector<BenchRow> rows;
+    const auto add = [&rows](std::vector<BenchRow> more, int width, int height) {
+        for (BenchRow& row : more) {
+            row.width = width;
+            row.height = height;
+            rows.push_back(std::move(row));
+        }
+    };
+    add(main_rows(), large_width, large_height);
+    add(main_rows(), deck_width, deck_height);
+    add(further_rows(), deck_width, deck_height);
     return rows;
 }
 
@@ -127,8 +185,16 @@ std::string BenchRow::key() const {
     return fmt::format("{}.{}x{}", name, width, height);
 }
 
+std::string row_name(const BenchScene& scene) {
+    if (scene.materials.size() == 1) {
+        return fmt::format("shade.{}.{}", model_key(scene.materials.front()), name_of(scene.lights));
+    }
+    return fmt::format("shade.mixed{}.{}.{}", scene.materials.size(),
+                       scene.ids == BenchIds::tiles ? "tiles" : "scattered", name_of(scene.lights));
+}
+
 BenchRow lambert_row(int width, int height) {
-    BenchRow row = row_of({}, all_rivals, false);
+    BenchRow row = row_of({}, all_rivals);
     row.width = width;
     row.height = height;
     return row;
@@ -160,14 +226,29 @@ std::vector<BenchRow> select_rows(const BenchOptions& options) {
 }
 
 std::vector<DeckEntry> deck_entries() {
-    constexpr std::string_view no_layers = "layered materials are not built yet";
+    using enum AbsorptionModel;
     constexpr std::string_view single = "one directional light, single layer";
+    constexpr std::string_view lambert = "one light, Blinn-Lambert";
+    const std::string ours = row_name({});
+    const auto dual = [](AbsorptionModel absorption) { return row_name(coated_scene(1, absorption)); };
+    const std::string oren_nayar =
+        row_name(scene_of(single_layer(SpecularModel::blinn_phong, DiffuseModel::oren_nayar)));
     return {
-        {"one light, Blinn-Oren-Nayar", "one light, Blinn-Lambert", 1.289, "shade.blinn_phong.oren_nayar.distant1", ""},
-        {"one directional light, dual layer, no absorption", single, 1.030, "", no_layers},
-        {"one directional light, dual layer, approximated absorption", single, 1.121, "", no_layers},
-        {"one directional light, dual layer, original absorption", single, 1.606, "", no_layers},
+        {single, single, 1.0, ours, ours},
+        {"one directional light, dual layer, no absorption", single, 1.030, dual(none), ours},
+        {"one directional light, dual layer, approximated absorption", single, 1.121, dual(approximated), ours},
+        {"one directional light, dual layer, original absorption", single, 1.606, dual(original), ours},
+        {lambert, lambert, 1.0, ours, ours},
+        {"one light, Blinn-Oren-Nayar", lambert, 1.289, oren_nayar, ours},
     };
+}
+
+std::vector<LayerEntry> layer_entries() {
+    std::vector<LayerEntry> entries = {{1, row_name({})}};
+    for (const int coats : {1, 3, most_coats}) {
+        entries.push_back({coats + 1, row_name(coated_scene(coats, AbsorptionModel::approximated))});
+    }
+    return entries;
 }
 
 } // namespace clshade

@@ -2,13 +2,15 @@
 
 #include "bench/bench_group.h"
 #include "bench/bench_rows.h"
+#include "bench/build_times.h"
 #include "host/base/error.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <list>
+#include <optional>
 #include <utility>
 
 namespace clshade {
@@ -45,34 +47,60 @@ std::vector<BenchResult> failed(const std::vector<BenchRow>& rows, const std::st
     return results;
 }
 
-/// The deck's rows with status and reason, before anything is timed.
-std::vector<DeckRow> empty_deck() {
-    std::vector<DeckRow> deck;
+/// Adds what a group timed of the deck's rows.
+void add_deck(std::vector<DeckRow>& deck, const BenchGroup& group) {
     for (const DeckEntry& entry : deck_entries()) {
         DeckRow row;
+        row.ratio = group.ratio(entry.row, entry.baseline_row);
+        if (!row.ratio) {
+            continue;
+        }
         row.name = entry.name;
         row.baseline = entry.baseline;
         row.deck_ratio = entry.ratio;
-        row.status = entry.row.empty() ? BenchStatus::unsupported : BenchStatus::skipped;
-        row.reason = entry.row.empty() ? entry.reason : "its kernel was not timed";
+        row.width = group.width();
+        row.height = group.height();
+        row.median_ms = group.median_ms(entry.row).value();
         deck.push_back(std::move(row));
     }
-    return deck;
 }
 
-/// Fills in what a group timed; of several sizes the first that has a ratio counts.
-void fill_deck(std::vector<DeckRow>& deck, const BenchGroup& group) {
-    const std::vector<DeckEntry> entries = deck_entries();
-    const std::string lambert = lambert_row(1, 1).name;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        if (entries[i].row.empty() || deck[i].ratio) {
-            continue;
+/// Adds the deck's rows that no group has timed.
+void add_missing_deck(std::vector<DeckRow>& deck) {
+    for (const DeckEntry& entry : deck_entries()) {
+        const bool known =
+            std::any_of(deck.begin(), deck.end(), [&entry](const DeckRow& row) { return row.name == entry.name; });
+        if (!known) {
+            DeckRow row;
+            row.name = entry.name;
+            row.baseline = entry.baseline;
+            row.deck_ratio = entry.ratio;
+            row.status = BenchStatus::skipped;
+            row.reason = "its kernel was not timed";
+            deck.push_back(std::move(row));
         }
-        deck[i].ratio = group.ratio(entries[i].row, lambert);
-        if (deck[i].ratio) {
-            deck[i].status = BenchStatus::ok;
-            deck[i].reason.clear();
+    }
+}
+
+void add_layers(std::vector<LayerGrowth>& layers, const BenchGroup& group) {
+    const std::vector<LayerEntry> entries = layer_entries();
+    for (const LayerEntry& entry : entries) {
+        const std::optional<double> ratio = group.ratio(entry.row, entries.front().row);
+        if (ratio) {
+            const double per_layer = entry.layers > 1 ? (*ratio - 1.0) / (entry.layers - 1) : 0.0;
+            layers.push_back(
+                {group.width(), group.height(), entry.layers, group.median_ms(entry.row).value(), *ratio, per_layer});
         }
+    }
+}
+
+/// The first build of a process also loads the driver's compiler, which is not what rows report. If it fails, the rows
+/// say why.
+void load_compiler(Device& device, const BenchOptions& options) {
+    try {
+        (void)measure_build(device, {}, options.kernel_dir, options.lanes);
+    } catch (const RuntimeFailure& failure) {
+        spdlog::debug("the build before all others failed: {}", failure.what());
     }
 }
 
@@ -96,8 +124,8 @@ BenchReport run_benchmarks(Device& device, const BenchOptions& options, const Be
         ++done;
     };
 
+    load_compiler(device, options);
     BenchReport report;
-    report.deck = empty_deck();
     for (const std::vector<BenchRow>& group_rows : groups) {
         try {
             BenchGroup group(device, options, group_rows);
@@ -106,7 +134,8 @@ BenchReport run_benchmarks(Device& device, const BenchOptions& options, const Be
             group.run();
             std::vector<BenchResult> results = group.results();
             std::move(results.begin(), results.end(), std::back_inserter(report.results));
-            fill_deck(report.deck, group);
+            add_deck(report.deck, group);
+            add_layers(report.layers, group);
         } catch (const UsageError&) {
             throw; // a wrong --kernel-dir or --lanes is the same for every group
         } catch (const std::exception& failure) {
@@ -114,6 +143,7 @@ BenchReport run_benchmarks(Device& device, const BenchOptions& options, const Be
             std::move(results.begin(), results.end(), std::back_inserter(report.results));
         }
     }
+    add_missing_deck(report.deck);
     return report;
 }
 

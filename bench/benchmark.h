@@ -28,8 +28,9 @@ enum class BenchStatus { ok, skipped, unsupported, error };
 
 /// One rival of one row. Names: "stream_opencl" (same bytes through a kernel), "stream_cpp" (same bytes through C++
 /// non-temporal stores), "openmp_simd" (the compiler's vectorised C++ loop), "hand_simd" (hand-vectorised C++),
-/// "naive_opencl" (image2d_t and pow), "reference" (scalar double precision, one thread), or the key of another row
-/// that this one is measured against.
+/// "naive_opencl" (image2d_t and pow), "reference" (scalar double precision, one thread), the key of another row that
+/// this one is measured against, or "mean_alone" (of rows with several materials: the mean of kernels that shade the
+/// whole picture with one of them, taken inside each round).
 struct RivalResult {
     std::string name;
     BenchStatus status = BenchStatus::ok;
@@ -50,7 +51,7 @@ struct BenchResult {
     int height = 0;
     int lights = 0;
     int environments = 0;
-    int layers = 1;
+    int layers = 1; ///< of the deepest stack
     int lanes = 0;
     int rounds = 0;
     double median_ms = 0.0;
@@ -58,25 +59,41 @@ struct BenchResult {
     double spread = 0.0;          ///< (90th - 10th percentile) / median
     double bytes_per_pixel = 0.0; ///< planes read and written, each once
     double mpix_per_s = 0.0;
-    double gb_per_s = 0.0;        ///< 1e9 bytes per second, from bytes_per_pixel
-    double build_cold_ms = 0.0;   ///< into an empty binary cache
-    double build_cached_ms = 0.0; ///< from that cache
+    double gb_per_s = 0.0; ///< 1e9 bytes per second, from bytes_per_pixel
+    /// From the frame to the end of a first launch over 64x64 pixels, into an empty binary cache. Not the first build
+    /// of the process, which loads the driver's compiler too: one that is thrown away goes before all rows.
+    double build_cold_ms = 0.0;
+    double build_cached_ms = 0.0; ///< the same from that cache
     std::vector<RivalResult> against;
 };
 
-/// A row of the deck's direct-light tables (models.md section 13) beside our own.
+/// A row of the deck's direct-light tables (models.md section 13) beside our own; one for every size it was timed at.
 struct DeckRow {
     std::string name;     ///< "Blinn-Oren-Nayar, one light"
     std::string baseline; ///< "Blinn-Lambert, one light"
     double deck_ratio = 1.0;
     BenchStatus status = BenchStatus::ok;
     std::string reason;
+    int width = 0; ///< 0 unless ok
+    int height = 0;
+    double median_ms = 0.0;      ///< ours
     std::optional<double> ratio; ///< ours, paired by rounds; only if ok
+};
+
+/// How time grows with the layers of a stack: Lambert under 0, 1, 3 and 7 coats that absorb.
+struct LayerGrowth {
+    int width = 0;
+    int height = 0;
+    int layers = 1;
+    double median_ms = 0.0;
+    double ratio = 1.0;     ///< to the single layer, paired by rounds
+    double per_layer = 0.0; ///< (ratio - 1) / (layers - 1): what each further layer costs, in single layers; 0 for one
 };
 
 struct BenchReport {
     std::vector<BenchResult> results;
     std::vector<DeckRow> deck;
+    std::vector<LayerGrowth> layers; ///< sizes together, shallow first; only what was timed
 };
 
 struct BenchOptions {

@@ -40,4 +40,21 @@ double paired_ratio(std::span<const double> ours, std::span<const double> theirs
     return median(ratios);
 }
 
+std::vector<double> mean_by_rounds(std::span<const std::span<const double>> contestants) {
+    if (contestants.empty()) {
+        throw std::invalid_argument("a mean of no contestants");
+    }
+    std::size_t shared = contestants.front().size();
+    for (const std::span<const double> each : contestants) {
+        shared = std::min(shared, each.size());
+    }
+    std::vector<double> means(shared, 0.0);
+    for (const std::span<const double> each : contestants) {
+        for (std::size_t i = 0; i < shared; ++i) {
+            means[i] += each[i] / static_cast<double>(contestants.size());
+        }
+    }
+    return means;
+}
+
 } // namespace clshade

@@ -20,4 +20,8 @@ namespace clshade {
 /// counted from the first round on. Throws std::invalid_argument when no round is shared.
 [[nodiscard]] double paired_ratio(std::span<const double> ours, std::span<const double> theirs);
 
+/// Mean of several contestants inside each round, over the rounds that all of them have. Throws std::invalid_argument
+/// for no contestants.
+[[nodiscard]] std::vector<double> mean_by_rounds(std::span<const std::span<const double>> contestants);
+
 } // namespace clshade

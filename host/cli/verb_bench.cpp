@@ -13,8 +13,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <string>
 
 namespace clshade::cli {
 
@@ -96,14 +98,38 @@ std::string rivals_text(const BenchReport& bench) {
     return table.empty() ? std::string() : "\n" + table.text();
 }
 
+std::string size_text(int width, int height) {
+    return fmt::format("{}x{}", width, height);
+}
+
 std::string deck_text(const BenchReport& bench) {
-    Table table({{"row of the deck", Align::left}, {"against", Align::left}, {"deck"}, {"here"}});
+    Table table({{"row of the deck", Align::left},
+                 {"against", Align::left},
+                 {"deck"},
+                 {"here"},
+                 {"here [ms]"},
+                 {"size", Align::left}});
     for (const DeckRow& row : bench.deck) {
-        table.add_row({row.name, row.baseline, fmt::format("{:.3f}", row.deck_ratio),
-                       row.status == BenchStatus::ok && row.ratio ? fmt::format("{:.3f}", *row.ratio)
-                                                                  : std::string(name_of(row.status))});
+        const std::string deck = fmt::format("{:.3f}", row.deck_ratio);
+        if (row.status == BenchStatus::ok && row.ratio) {
+            table.add_row({row.name, row.baseline, deck, fmt::format("{:.3f}", *row.ratio), format_ms(row.median_ms),
+                           size_text(row.width, row.height)});
+        } else {
+            table.add_row({row.name, row.baseline, deck, std::string(name_of(row.status))});
+        }
     }
     return table.empty() ? std::string() : "\n" + table.text();
+}
+
+std::string layers_text(const BenchReport& bench) {
+    Table table({{"layers"}, {"median [ms]"}, {"to one layer"}, {"each further layer"}, {"size", Align::left}});
+    for (const LayerGrowth& row : bench.layers) {
+        table.add_row({std::to_string(row.layers), format_ms(row.median_ms), fmt::format("{:.3f}", row.ratio),
+                       row.layers > 1 ? fmt::format("{:+.3f}", row.per_layer) : "", size_text(row.width, row.height)});
+    }
+    const bool grows =
+        std::any_of(bench.layers.begin(), bench.layers.end(), [](const LayerGrowth& row) { return row.layers > 1; });
+    return grows ? "\n" + table.text() : std::string();
 }
 
 std::string reasons_text(const BenchReport& bench) {
@@ -172,9 +198,17 @@ nlohmann::json json_of(const DeckRow& row) {
         result["reason"] = row.reason;
     }
     if (row.ratio) {
+        result["width"] = row.width;
+        result["height"] = row.height;
+        result["median_ms"] = row.median_ms;
         result["ratio"] = *row.ratio;
     }
     return result;
+}
+
+nlohmann::json json_of(const LayerGrowth& row) {
+    return {{"width", row.width},         {"height", row.height}, {"layers", row.layers},
+            {"median_ms", row.median_ms}, {"ratio", row.ratio},   {"per_layer", row.per_layer}};
 }
 
 void add_to(JsonReport& report, const BenchReport& bench) {
@@ -183,6 +217,11 @@ void add_to(JsonReport& report, const BenchReport& bench) {
         deck.push_back(json_of(row));
     }
     report.set("deck", deck);
+    nlohmann::json layers = nlohmann::json::array();
+    for (const LayerGrowth& row : bench.layers) {
+        layers.push_back(json_of(row));
+    }
+    report.set("layer_growth", layers);
     for (const BenchResult& row : bench.results) {
         if (row.status == BenchStatus::ok) {
             report.add(json_of(row));
@@ -249,8 +288,9 @@ ExitCode bench(const BenchFlags& flags, JsonReport& report) {
     progress.clear();
     add_to(report, result);
     if (!flags.common.quiet) {
-        fmt::print("{}/{}, driver {}\n\n{}{}{}{}", session.info().platform, session.info().name, session.info().driver,
-                   kernels_text(result), rivals_text(result), deck_text(result), reasons_text(result));
+        fmt::print("{}/{}, driver {}\n\n{}{}{}{}{}", session.info().platform, session.info().name,
+                   session.info().driver, kernels_text(result), rivals_text(result), deck_text(result),
+                   layers_text(result), reasons_text(result));
     }
     ExitCode code = ExitCode::ok;
     for (const BenchResult& row : result.results) {
