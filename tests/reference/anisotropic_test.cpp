@@ -66,7 +66,8 @@ RC_GTEST_PROP(Anisotropic, EqualExponentsGiveTheExactForm, ()) {
     const TangentFrame frame = tangent_frame(random_direction(), up);
     const double isotropic = blinn_phong_exact(a, glm::dvec3(0.3), n).x;
     // the exponent is n up to a few roundings, and n |log N.H| < 700 wherever there is anything left
-    RC_ASSERT(std::abs(blinn_phong_anisotropic(a, frame, glm::dvec3(0.3), n, n).x - isotropic) <= 1e-12 * isotropic);
+    RC_ASSERT(std::abs(blinn_phong_anisotropic(a, frame, glm::dvec3(0.3), n, n).x - isotropic) <=
+              1e-12 * isotropic + 1e-300); // denormal numbers have no digits
 }
 
 RC_GTEST_PROP(Anisotropic, IsReciprocalBoundedAndPositive, ()) {
@@ -81,7 +82,7 @@ RC_GTEST_PROP(Anisotropic, IsReciprocalBoundedAndPositive, ()) {
     const double back = anisotropic_f_cos(b, frame, n_u, n_v);
     RC_ASSERT(forth >= 0.0);
     RC_ASSERT(forth <= normaliser_anisotropic(n_u, n_v) * (1.0 + 1e-12));
-    RC_ASSERT(std::abs(forth * b.nl - back * a.nl) <= 1e-10 * forth);
+    RC_ASSERT(std::abs(forth * b.nl - back * a.nl) <= 1e-10 * forth + 1e-300); // denormal numbers have no digits
 }
 
 TEST(Anisotropic, HighlightIsLongAlongTheAxisOfTheSmallerExponent) {

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace clshade::reference {
 namespace {
@@ -58,16 +60,22 @@ RC_GTEST_PROP(Dielectric, IsTheSameFromBothSides, ()) {
     // F(n; c) = F(1/n; c') (models.md section 5)
     const double n = random_index();
     const double c = random_cosine();
-    RC_ASSERT(std::abs(fresnel_dielectric(n, c) - fresnel_dielectric(1.0 / n, refracted_cosine(c, n))) <= 1e-12);
+    // From inside g^2 = 1/n^2 - 1 + c'^2 = c^2/n^2 has cancelled: g is off by 1e-16 n/c, by 1e-8 at c = 0, and F by
+    // n^2 g/c', c' being sqrt(1 - 1/n^2) at least.
+    const double inside = fresnel_dielectric(1.0 / n, refracted_cosine(c, n));
+    RC_ASSERT(std::abs(fresnel_dielectric(n, c) - inside) <= 1e-14 * n * n / (std::max(c, 1e-7) * std::sqrt(n - 1.0)));
 }
 
 RC_GTEST_PROP(Dielectric, RisesTowardsGrazing, ()) {
     const double n = random_index();
     const double c = random_cosine();
     const double f = fresnel_dielectric(n, c);
-    RC_ASSERT(f >= f0_between(1.0, n) - 1e-15);
+    // 1e-14: a dozen roundings. Past n = 2 + sqrt 3 reflectance dips before it rises.
     RC_ASSERT(f <= 1.0);
-    RC_ASSERT(fresnel_dielectric(n, 0.99 * c) >= f - 1e-15);
+    if (n < 2.0 + std::numbers::sqrt3) {
+        RC_ASSERT(f >= f0_between(1.0, n) - 1e-14);
+        RC_ASSERT(fresnel_dielectric(n, 0.99 * c) >= f - 1e-14);
+    }
 }
 
 RC_GTEST_PROP(Conductor, WithoutAbsorptionIsADielectric, ()) {
