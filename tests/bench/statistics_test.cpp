@@ -5,6 +5,7 @@
 
 #include <array>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -44,6 +45,16 @@ TEST(Statistics, RatioIsPairedByRounds) {
 TEST(Statistics, RatioWithARivalOfFewerRoundsUsesTheSharedOnes) {
     EXPECT_DOUBLE_EQ(paired_ratio(std::array{1.0, 1.0, 100.0, 100.0}, std::array{4.0, 2.0}), 0.375);
     EXPECT_DOUBLE_EQ(paired_ratio(std::array{4.0, 2.0}, std::array{1.0, 1.0, 100.0, 100.0}), 3.0);
+}
+
+TEST(Statistics, TheMeanIsTakenRoundByRound) {
+    const std::array a{1.0, 4.0, 90.0};
+    const std::array b{3.0, 8.0, 10.0, 77.0};
+    const std::array<std::span<const double>, 2> contestants{a, b};
+    EXPECT_EQ(mean_by_rounds(contestants), (std::vector<double>{2.0, 6.0, 50.0}));
+    // The machine becomes slower from round to round, the ratio to the mean stays.
+    EXPECT_DOUBLE_EQ(paired_ratio(std::array{4.0, 12.0, 100.0}, mean_by_rounds(contestants)), 2.0);
+    EXPECT_THROW((void)mean_by_rounds({}), std::invalid_argument);
 }
 
 TEST(Statistics, NothingIsNoNumber) {
