@@ -19,20 +19,31 @@ namespace {
 constexpr int sample_side = 3;
 constexpr int colours = 3;
 
-// Means over squares of samples. Values beyond white are clamped before, as a screen would: edges of highlights are
-// smooth then.
-PlaneSlab filtered(const ShadedImage& image, int size) {
-    PlaneSlab result(size, size, colours);
+using Colour = std::array<float, colours>;
+
+// What a screen can show of a sample: half clipped channel by channel, which bleaches highlights as film does, half
+// scaled down as a whole, which keeps the colour of a metal.
+Colour on_screen(const ShadedImage& image, int x, int y) {
+    Colour colour{};
     for (int c = 0; c < colours; ++c) {
-        for (int y = 0; y < size; ++y) {
-            for (int x = 0; x < size; ++x) {
-                float sum = 0.0F;
-                for (int j = 0; j < sample_side; ++j) {
-                    for (int i = 0; i < sample_side; ++i) {
-                        sum += std::min(image.planes.at(c, x * sample_side + i, y * sample_side + j), 1.0F);
-                    }
-                }
-                result.at(c, x, y) = sum / static_cast<float>(sample_side * sample_side);
+        colour.at(static_cast<std::size_t>(c)) = image.planes.at(c, x, y);
+    }
+    const float scale = 1.0F / std::max(1.0F, *std::max_element(colour.begin(), colour.end()));
+    for (float& value : colour) {
+        value = 0.5F * (std::min(value, 1.0F) + scale * value);
+    }
+    return colour;
+}
+
+// Means over squares of samples as the screen shows them, so that edges of highlights are smooth.
+PlaneSlab filtered(const ShadedImage& image, int size) {
+    constexpr float weight = 1.0F / static_cast<float>(sample_side * sample_side);
+    PlaneSlab result(size, size, colours);
+    for (int y = 0; y < size * sample_side; ++y) {
+        for (int x = 0; x < size * sample_side; ++x) {
+            const Colour colour = on_screen(image, x, y);
+            for (int c = 0; c < colours; ++c) {
+                result.at(c, x / sample_side, y / sample_side) += weight * colour.at(static_cast<std::size_t>(c));
             }
         }
     }

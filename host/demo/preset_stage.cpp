@@ -172,14 +172,16 @@ double soft_box(const glm::dvec3& direction, const glm::dvec3& centre, double ha
 
 /// What the studio sends from a direction (pointing away from the body): radiance.
 glm::dvec3 studio(const glm::dvec3& direction) {
-    const glm::dvec3 rim = glm::normalize(glm::dvec3(0.85, 0.55, 0.45));
-    const glm::dvec3 fill = glm::normalize(glm::dvec3(0.9, -0.75, 0.25));
+    const glm::dvec3 rim = glm::normalize(glm::dvec3(0.9, 0.7, 0.35));
+    const glm::dvec3 back = glm::normalize(glm::dvec3(-0.95, 0.75, 0.5));
+    const glm::dvec3 fill = glm::normalize(glm::dvec3(0.9, -0.8, 0.2));
     const double height = direction.z;
-    glm::dvec3 light = height > 0.0 ? glm::mix(glm::dvec3(0.10, 0.105, 0.115), glm::dvec3(0.20, 0.21, 0.23), height)
-                                    : glm::mix(glm::dvec3(0.10, 0.098, 0.095), glm::dvec3(0.05, 0.048, 0.045), -height);
-    light += 6.0 * soft_box(direction, to_key, 0.42, 0.42) * glm::dvec3(1.0, 0.97, 0.92);
-    light += 4.0 * soft_box(direction, rim, 0.16, 0.8) * glm::dvec3(0.92, 0.96, 1.0);
-    light += 0.9 * soft_box(direction, fill, 0.5, 0.6) * glm::dvec3(0.95, 0.98, 1.0);
+    glm::dvec3 light = height > 0.0 ? glm::mix(glm::dvec3(0.08, 0.085, 0.09), glm::dvec3(0.34, 0.35, 0.37), height)
+                                    : glm::mix(glm::dvec3(0.08, 0.076, 0.07), glm::dvec3(0.16, 0.15, 0.135), -height);
+    light += 3.2 * soft_box(direction, to_key, 0.62, 0.66) * glm::dvec3(1.0, 0.975, 0.94);
+    light += 3.4 * soft_box(direction, rim, 0.22, 1.0) * glm::dvec3(0.94, 0.97, 1.0);
+    light += 2.4 * soft_box(direction, back, 0.2, 0.9) * glm::dvec3(0.94, 0.97, 1.0);
+    light += 0.8 * soft_box(direction, fill, 0.35, 0.8) * glm::dvec3(0.96, 0.98, 1.0);
     return light;
 }
 
@@ -209,9 +211,9 @@ std::string preset_stage_materials(std::string_view preset) {
 }
 
 std::vector<Light> preset_stage_lights() {
-    // Directions on a spiral cover the sphere evenly (Swinbank and Purser, "Fibonacci grids", 2006): 1600 lie 5 degrees
-    // apart, where the sharpest preset (shininess 2048) has highlights 6 degrees wide.
-    constexpr int count = 1600;
+    // Directions on a spiral cover the sphere evenly (Swinbank and Purser, "Fibonacci grids", 2006): 6400 lie 2.5 degrees
+    // apart. The sharpest preset (shininess 2048) has highlights 6 degrees wide, narrower towards grazing angles.
+    constexpr int count = 6400;
     const double golden_angle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
     std::vector<Light> lights;
     for (int i = 0; i < count; ++i) {

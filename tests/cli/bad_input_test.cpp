@@ -146,8 +146,6 @@ std::vector<BadInput> bad_scenes() {
         bad_scene("scene_singular_camera",
                   "[camera]\nmatrix_world = [[1,0,0,0],[1,0,0,0],[0,0,1,5],[0,0,0,1]]\nfov_y_degrees = 40\n",
                   {"matrix_world"}),
-        bad_scene("scene_model_to_come", "[material.default]\nspecular = { model = \"blinn_phong_spectral\" }\n",
-                  {"not built yet"}),
         {"set_unknown_key", 2, {"shinyness", "did you mean"}, good, {"--set", "material.default.specular.shinyness=3"}},
         {"set_no_value", 2, {"--set"}, good, {"--set", "material.default.specular.shininess"}},
         {"model_unknown", 2, {"lambret", "did you mean 'lambert'?"}, good, {"--model", "lambret"}},
@@ -158,9 +156,92 @@ std::vector<BadInput> bad_scenes() {
     };
 }
 
+const std::string one_layer = "[[material.default.layer]]\nspecular = { shininess = 9 }\n";
+const std::string lambert_base = "[[material.default.layer]]\ndiffuse = { model = \"lambert\" }\n";
+
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int i = 0; i < times; ++i) {
+        all += text;
+    }
+    return all;
+}
+
+std::vector<BadInput> bad_stacks() {
+    return {
+        bad_scene("nine_layers", repeated(one_layer, 8) + lambert_base, {":18:", "default", "9 layers", "eight"}),
+        bad_scene("empty_stack", "[material.default]\nlayer = []\n", {":3:", "default", "at least one"}),
+        bad_scene("layer_without_anything", "[[material.default.layer]]\n" + one_layer, {":2:", "layer 1"}),
+        bad_scene("diffuse_above_the_base",
+                  "[[material.default.layer]]\ndiffuse = { model = \"lambert\" }\n" + one_layer,
+                  {":3:", "layer 1", "'diffuse'", "base"}),
+        bad_scene("ior_below_1", "[[material.default.layer]]\nspecular = { ior = 0.99 }\n" + lambert_base,
+                  {":3:", "ior", "0.99", "1"}),
+        bad_scene("negative_absorption", "[[material.default.layer]]\nabsorption = [0.1, -0.1, 0.1]\n" + lambert_base,
+                  {":3:", "absorption", "-0.1"}),
+        bad_scene("absorption_in_the_base",
+                  one_layer + "[[material.default.layer]]\nspecular = { f0 = 0.1 }\nabsorption = 0.1\n",
+                  {":6:", "absorption", "below"}),
+        bad_scene("unknown_fresnel", "[material.default]\nfresnel = \"exat\"\n" + one_layer,
+                  {":3:", "exat", "did you mean 'exact'?"}),
+        bad_scene("unknown_preset", "[material.default]\npreset = \"car_piant\"\n",
+                  {":3:", "car_piant", "did you mean 'car_paint'?"}),
+        bad_scene("zero_tangent",
+                  "[material.default]\nspecular = { model = \"blinn_phong_anisotropic\", shininess_u = 9, "
+                  "shininess_v = 99, tangent = [0, 0, 0] }\n",
+                  {":3:", "tangent"}),
+        bad_planes("no_tangent_role", surface_planes(), {"in.exr", "tangent", "default"},
+                   {"--set", "material.default.specular={model=\"blinn_phong_anisotropic\",shininess_u=9,"
+                             "shininess_v=99}"}),
+        bad_planes("names_without_cryptomatte", surface_planes(), {"in.exr", "no Cryptomatte", "gold"},
+                   {"--set", "material.a={names=[\"gold\"],diffuse={model=\"lambert\"}}"}),
+    };
+}
+
+// A Cryptomatte file, a name that is not in it, and what the message must hold.
+BadInput bad_name(const std::string& name, const std::string& written, std::vector<std::string> words) {
+    return {name,
+            2,
+            std::move(words),
+            [](const TemporaryFolder& folder) {
+                std::filesystem::copy(std::filesystem::path(CLSHADE_TEST_DATA) / "crypto_crop.exr", folder / "in.exr");
+            },
+            {"--set", "material.a={names=[\"" + written + "\"],diffuse={model=\"lambert\"}}"}};
+}
+
+BadInput bad_metal(const std::string& name, const std::string& table, std::vector<std::string> words) {
+    words.emplace_back("metal.nk:");
+    return {name,
+            2,
+            std::move(words),
+            [table](const TemporaryFolder& folder) {
+                good(folder);
+                write_bytes(folder / "metal.nk", table);
+            },
+            {"--model", "blinn_phong_spectral", "--set", "material.default.specular.metal=\"metal.nk\""}};
+}
+
+std::vector<BadInput> bad_tables() {
+    return {
+        bad_name("crypto_misspelt", "car_piant", {"in.exr", "'car_piant'", "did you mean 'car_paint'?"}),
+        bad_name("crypto_unknown", "something else entirely", {"in.exr", "'something else entirely'", "gold"}),
+        bad_metal("nk_out_of_order", "400, 1, 2\n500, 1, 2\n450, 1, 2\n", {":3:", "450", "500"}),
+        bad_metal("nk_twice", "400, 1, 2\n400, 1, 2\n", {":2:", "400"}),
+        bad_metal("nk_one_row", "400, 1, 2\n", {"1 row", "two or more"}),
+        bad_metal("nk_nan", "400, nan, 2\n500, 1, 2\n", {":1:", "nan"}),
+        bad_metal("nk_negative_k", "400, 1, 2\n500, 1, -2\n", {":2:", "-2"}),
+        bad_metal("nk_text", "wavelength n k\n400, 1, 2\n500, 1, two\n", {":1:"}),
+        {"nk_missing",
+         2,
+         {"silver.nk", "gold"},
+         good,
+         {"--model", "blinn_phong_spectral", "--set", "material.default.specular.metal=\"silver.nk\""}},
+    };
+}
+
 std::vector<BadInput> all_bad_inputs() {
     std::vector<BadInput> all;
-    for (const auto& part : {bad_files(), bad_roles(), bad_scenes()}) {
+    for (const auto& part : {bad_files(), bad_roles(), bad_scenes(), bad_stacks(), bad_tables()}) {
         all.insert(all.end(), part.begin(), part.end());
     }
     return all;

