@@ -134,7 +134,9 @@ class ShadeRun {
     ShadeRun(const ShadeOptions& options, JsonReport& report, std::vector<FrameJob> jobs)
         : options_(options), report_(report), settings_(settings_of(options)), scene_(choose_scene(options.scene)),
           dump_(options.dump_kernel, options.common.kernel_dir), jobs_(std::move(jobs)), session_(options.common),
-          progress_(options.common, static_cast<int>(jobs_.size())) {}
+          progress_(options.common, static_cast<int>(jobs_.size())) {
+        settings_.kernel_dump = options.dump_kernel.empty() ? nullptr : &dump_;
+    }
 
     ExitCode run() {
         refuse_what_png_cannot();

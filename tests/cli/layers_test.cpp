@@ -172,7 +172,7 @@ TEST_F(DumpedKernel, IsNotWrittenByADryRun) {
     EXPECT_EQ(folder.names(), before);
 }
 
-TEST(Claims, ByCryptomatteNameAndByIdGiveTheSamePicture) {
+TEST(Claims, ByCryptomatteNameTakeItsPixels) {
     const TemporaryFolder folder;
     const auto scene = [](const std::string& claim) {
         return "version = 1\n[material.default]\ndiffuse = { model = \"lambert\", albedo = 0.2 }\n"
@@ -180,8 +180,8 @@ TEST(Claims, ByCryptomatteNameAndByIdGiveTheSamePicture) {
                claim;
     };
     const std::string light = "[[light]]\ntype = \"distant\"\ndirection = [0.3, 0.8, -0.5]\nirradiance = 3.0\n";
-    write_bytes(folder / "name.toml", scene("names = [\"gold\"]\n") + light);
-    write_bytes(folder / "qualified.toml", scene("names = [\"CryptoMaterial/gold\"]\n") + light);
+    write_bytes(folder / "name.toml", scene("names = [\"copper_r005\"]\n") + light);
+    write_bytes(folder / "qualified.toml", scene("names = [\"CryptoMaterial/copper_r005\"]\n") + light);
     write_bytes(folder / "nobody.toml", scene("ids = [9999]\n") + light);
     std::vector<std::vector<float>> pictures;
     for (const char* file : {"name.toml", "qualified.toml", "nobody.toml"}) {

@@ -193,7 +193,7 @@ TEST(Demo, TheSceneFileFitsThePlanes) {
     std::set<SpecularModel> specular;
     std::set<DiffuseModel> diffuse;
     for (const Material& material : scene.materials) {
-        specular.insert(material.specular.model);
+        specular.insert(material.base().model);
         diffuse.insert(material.diffuse.model);
         for (const auto id : material.ids) {
             EXPECT_TRUE(id >= 1 && id <= 10) << id;
