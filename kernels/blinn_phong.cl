@@ -27,15 +27,10 @@ static inline real schlick_weight_gaussian(incidence i) {
     return exp2_in_range(i.two_eh * fma(i.two_eh, splat(-0.25f * 5.55473f), splat(-0.5f * 6.98316f)));
 }
 
-// log2 (N.H)^2: one for all lobes of a light.
-static inline real log2_nh2_of(incidence i) {
-    return log2_cosine_squared(i.nh2, i.sin2_nh);
-}
-
-// The lobe without normaliser and Fresnel: (N.H)^n N.L / max(N.L, N.E), with (N.H)^n = 2^(n/2 log2 (N.H)^2), which is 1
-// for n = 0 whatever N.H is.
-static inline real blinn_phong(incidence i, real log2_nh2, real half_shininess) {
-    return exp2_clamped(half_shininess * log2_nh2) * i.ratio;
+// (N.H)^n = 2^(n/2 log2 (N.H)^2), which is 1 for n = 0 whatever N.H is. The specular part is this times normaliser,
+// Fresnel and i.ratio = N.L / max(N.L, N.E).
+static inline real cosine_power(incidence i, real half_shininess) {
+    return exp2_clamped(half_shininess * i.log2_nh2);
 }
 
 // What the specular part leaves for diffuse: (1 - F0) in section 2; in section 1 also 1 - (1 - N.L)^5, since

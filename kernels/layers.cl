@@ -17,7 +17,7 @@ static inline real medium_below(real s, real above) {
 
 // F0(n2/n1) = ((n2 - n1) / (n2 + n1))^2.
 static inline real normal_reflectance(real above, real below) {
-    const real amplitude = (below - above) / larger(1.0f - below * above, splat(1e-7f));
+    const real amplitude = (below - above) * inverse(larger(1.0f - below * above, splat(1e-7f)));
     return amplitude * amplitude;
 }
 

@@ -14,8 +14,7 @@ typedef struct {
     real nl;       // N.L, at least 0: every f_cos has it, or `ratio`, as a factor, so that light from behind gives 0
     real el;       // E.L
     real two_eh;   // 2 E.H = |L + E|
-    real nh2;      // (N.H)^2
-    real sin2_nh;  // 1 - (N.H)^2 = |H - (N.H) N|^2, without cancellation near the highlight's centre
+    real log2_nh2; // log2 (N.H)^2: one for all lobes
     vec3 h;        // L + E, not of unit length
     real ratio;    // min(1, N.L / N.E): N.L / max(N.L, N.E)
 } incidence;
@@ -39,8 +38,8 @@ static inline incidence make_incidence(surface s, vec3 l, real strength) {
     const vec3 across = make_vec3(fma(-along, s.n.x, h.x), fma(-along, s.n.y, h.y), fma(-along, s.n.z, h.z));
     i.h = h;
     i.two_eh = hh * inverse_h;
-    i.nh2 = nh * nh * inverse_hh;
-    i.sin2_nh = dot3(across, across) * inverse_hh;
+    // |H - (N.H) N|^2 is 1 - (N.H)^2 without cancellation near the highlight's centre.
+    i.log2_nh2 = log2_cosine_squared(nh * nh * inverse_hh, dot3(across, across) * inverse_hh);
     return i;
 }
 

@@ -129,7 +129,7 @@ std::string rgb_text(const Value& value) {
     if (value.grey) {
         return fmt::format("grey({})", real_text(value));
     }
-    if (value.known && value.text.empty()) {
+    if (value.known) {
         return fmt::format("make_rgb(splat({}), splat({}), splat({}))", float_literal(value.number.x),
                            float_literal(value.number.y), float_literal(value.number.z));
     }
@@ -173,11 +173,33 @@ std::string wrapped(std::string_view line) {
     return text + rest + "\n";
 }
 
+CodeBlock::CodeBlock(int indent, std::string owner)
+    : indent_(static_cast<std::size_t>(indent), ' '), owner_(std::move(owner)) {}
+
 void CodeBlock::line(std::string_view text) {
     text_ += text.empty() ? "\n" : wrapped(indent_ + std::string(text));
 }
 
+std::string CodeBlock::declare(std::string_view type, std::string_view name, std::string_view expression) {
+    if (owner_.empty()) {
+        line(fmt::format("const {} {} = {};", type, name, expression));
+        return std::string(name);
+    }
+    members_ += fmt::format("    {} {};\n", type, name);
+    const std::string member = fmt::format("{}.{}", owner_, name);
+    line(fmt::format("{} = {};", member, expression));
+    return member;
+}
+
 Value CodeBlock::name(std::string_view name, const Value& value) {
+    if (value.known || is_name(value.text)) {
+        return value;
+    }
+    const std::string text = declare(value.grey ? "real" : "rgb", name, value.text);
+    return value.grey ? Value::real(text) : Value::rgb(text);
+}
+
+Value CodeBlock::local(std::string_view name, const Value& value) {
     if (value.known || is_name(value.text)) {
         return value;
     }
@@ -185,14 +207,12 @@ Value CodeBlock::name(std::string_view name, const Value& value) {
     return value.grey ? Value::real(std::string(name)) : Value::rgb(std::string(name));
 }
 
-Value CodeBlock::name_colour(std::string_view name, const Value& value) {
-    if (!value.known || value.grey || !value.text.empty()) {
-        return this->name(name, value);
+Value CodeBlock::local_colour(std::string_view name, const Value& value) {
+    if (!value.known || value.grey) {
+        return local(name, value);
     }
     line(fmt::format("const rgb {} = {};", name, rgb_text(value)));
-    Value named = value;
-    named.text = name;
-    return named;
+    return Value::rgb(std::string(name));
 }
 
 } // namespace clshade

@@ -14,7 +14,7 @@ struct Value {
     bool known = true;
     bool grey = true; ///< one component for all channels
     glm::dvec3 number{0.0};
-    std::string text; ///< of an expression; of a number that stands in the code under a name: the name
+    std::string text; ///< of an expression
     /// How tightly the expression binds: an operand of `*` must be at least a product.
     enum class Binding { sum, product, atom } binding = Binding::atom;
 
@@ -51,22 +51,33 @@ struct Value {
 /// Breaks a line at 120 columns after commas and before operators; continuation lines are indented by four more.
 [[nodiscard]] std::string wrapped(std::string_view line);
 
-/// Lines of a function's body.
+/// Lines of a function's body. What they name are constants of the function, or members of a struct that another
+/// function reads.
 class CodeBlock {
   public:
-    explicit CodeBlock(int indent) : indent_(static_cast<std::size_t>(indent), ' ') {}
+    /// `owner` empty: constants. Else the struct variable whose members are set, such as "m".
+    explicit CodeBlock(int indent, std::string owner = {});
 
     /// One statement, wrapped at 120 columns.
     void line(std::string_view text);
     /// Gives an expression a name, so that it is evaluated once. Known numbers and plain names stay what they are.
     [[nodiscard]] Value name(std::string_view name, const Value& value);
-    /// The same, and three known numbers get a name too.
-    [[nodiscard]] Value name_colour(std::string_view name, const Value& value);
+    /// The same for a constant of the function, whatever the owner.
+    [[nodiscard]] Value local(std::string_view name, const Value& value);
+    /// A local for an expression that would not be named otherwise: three known numbers.
+    [[nodiscard]] Value local_colour(std::string_view name, const Value& value);
+    /// Names a value of another type; returns the text that stands for it.
+    std::string declare(std::string_view type, std::string_view name, std::string_view expression);
+
     [[nodiscard]] const std::string& text() const { return text_; }
+    /// Declarations of the members that were named, "    real a;" lines.
+    [[nodiscard]] const std::string& members() const { return members_; }
 
   private:
     std::string indent_;
+    std::string owner_;
     std::string text_;
+    std::string members_;
 };
 
 } // namespace clshade

@@ -10,7 +10,7 @@ namespace clshade {
 struct DiffuseCode {
     std::string_view terms_type; ///< empty: the model has no terms
     std::string_view terms_function;
-    std::string_view value; ///< expression for one light
+    std::string_view value; ///< expression for one light `i`; m.terms are the terms
 };
 
 [[nodiscard]] DiffuseCode diffuse_code(DiffuseModel model);

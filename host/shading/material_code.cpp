@@ -13,9 +13,6 @@ namespace clshade {
 
 namespace {
 
-constexpr std::string_view arguments = "inputs in, surface s, results out, __constant const FrameConstants* frame, "
-                                       "__global const LightConstants* lights";
-
 /// A name as it may stand in a comment.
 std::string comment_text(const std::string& name) {
     std::string text;
@@ -60,88 +57,97 @@ std::string layer_comment(const Frame& frame, const BoundMaterial& material, std
     return text + "\n";
 }
 
-/// What of the light is reflected: share times light.
-std::string reflected(const LightSum& sum) {
-    return sum.share.grey ? fmt::format("scale_rgb({}, {})", sum.light, real_text(sum.share))
-                          : fmt::format("multiply_rgb({}, {})", sum.light, rgb_text(sum.share));
-}
-
-std::string add_reflected(const LightSum& sum) {
-    const std::string variable = "sum_" + sum.name;
+std::string add_reflected(const LightSum& sum, const LightSum::Term& term) {
     const std::string text =
-        sum.share.grey ? fmt::format("add_share({}, {}, {})", variable, sum.light, real_text(sum.share))
-                       : fmt::format("multiply_add_rgb({}, {}, {})", sum.light, rgb_text(sum.share), variable);
-    return fmt::format("{} = {};", variable, text);
+        term.share.grey ? fmt::format("add_share(sums.{}, {}, {})", sum.name, term.light, real_text(term.share))
+                        : fmt::format("multiply_add_rgb({}, {}, sums.{})", term.light, rgb_text(term.share), sum.name);
+    return fmt::format("sums.{} = {};", sum.name, text);
 }
 
-/// The lines that add up the diffuse or the specular part, each sum times its colour. `term` gives the code of a sum.
-template <class Term>
-void add_part(CodeBlock& block, const std::string& part, bool diffuse, const std::vector<LightSum>& sums, Term term) {
-    std::string type = "rgb ";
+/// The lines that add up the diffuse or the specular part, each sum times its colour.
+void add_part(CodeBlock& block, const std::string& part, bool diffuse, const std::vector<LightSum>& sums) {
+    Value total = Value::of(0.0);
     for (const LightSum& sum : sums) {
         if (sum.diffuse != diffuse) {
             continue;
         }
-        const std::string value = term(sum);
-        if (!type.empty()) {
-            block.line(fmt::format("{}{} = {};", type, part, rgb_text(product(sum.colour, Value::rgb(value)))));
-        } else if (sum.colour.is(1.0)) {
-            block.line(fmt::format("{0} = add_rgb({0}, {1});", part, value));
+        const Value colour = block.local_colour(sum.name + "_colour", sum.colour);
+        const Value own = Value::rgb("sums." + sum.name);
+        if (total.known) {
+            total = product(colour, own);
+        } else if (colour.is(1.0)) {
+            total = Value::rgb(fmt::format("add_rgb({}, {})", own.text, total.text));
         } else {
-            block.line(fmt::format("{0} = multiply_add_rgb({1}, {2}, {0});", part, rgb_text(sum.colour), value));
+            total = Value::rgb(fmt::format("multiply_add_rgb({}, {}, {})", rgb_text(colour), own.text, total.text));
         }
-        type.clear();
     }
-    if (!type.empty()) {
-        block.line(fmt::format("rgb {} = grey(splat(0.0f));", part));
-    }
+    block.line(fmt::format("const rgb {} = {};", part, rgb_text(total)));
 }
 
-std::string loop_text(const StackCode& code) {
-    CodeBlock before(4);
-    for (const LightSum& sum : code.sums()) {
-        before.line(fmt::format("rgb sum_{} = grey(splat(0.0f));", sum.name));
+/// The two structs of a material: what it knows of a pixel, and its sums over the lights.
+std::string structs(const StackCode& code, std::size_t index) {
+    std::string members = code.setup().members();
+    if (!code.clamped().empty()) {
+        members += "    mask clamped;\n";
     }
-    CodeBlock loop(8);
-    for (const LightSum& sum : code.sums()) {
-        loop.line(add_reflected(sum));
+    if (!code.no_tangent().empty()) {
+        members += "    mask no_tangent;\n";
     }
-    CodeBlock own(8);
-    add_part(own, "own_diffuse", true, code.sums(), reflected);
-    add_part(own, "own_specular", false, code.sums(), reflected);
-    return before.text() +
-           "    for (int k = 0; k < frame->light_count; ++k) {\n"
-           "        const incidence i = incidence_of(s, lights + k);\n"
-           "        const rgb e0 = irradiance(lights + k, i);\n" +
-           code.loop() + loop.text() + "#if OUTPUT_LIGHTS >= 0\n" + own.text() +
-           "        store_light(out, mine, s, k, make_radiance(own_diffuse, own_specular));\n#endif\n    }\n";
+    if (members.empty()) {
+        members = "    mask none; // everything about it is constant\n";
+    }
+    std::string text = fmt::format("typedef struct {{\n{}}} material_{};\n\ntypedef struct {{\n", members, index);
+    for (const LightSum& sum : code.sums()) {
+        text += fmt::format("    rgb {};\n", sum.name);
+    }
+    return text + (code.sums().empty() ? "    mask none;\n" : "") + fmt::format("}} sums_{};\n\n", index);
 }
 
-std::string material_function(const Frame& frame, std::size_t index, std::vector<std::string>& warnings) {
-    const BoundMaterial& material = frame.materials[index];
-    const StackCode code(frame, index);
-    warnings.insert(warnings.end(), code.warnings().begin(), code.warnings().end());
-    std::string text = code.functions();
-    text += fmt::format("// Material {}, \"{}\": {}\n", index, comment_text(material.name), model_key(material));
-    for (std::size_t k = 0; k < material.layers.size(); ++k) {
-        text += layer_comment(frame, material, k);
-    }
-    text += wrapped(fmt::format("static inline radiance shade_material_{}(mask mine, {}) {{", index, arguments));
-    text += code.setup() + "\n" + loop_text(code);
-    CodeBlock end(4);
-    const auto sum_name = [](const LightSum& sum) { return "sum_" + sum.name; };
-    add_part(end, "diffuse", true, code.sums(), sum_name);
-    add_part(end, "specular", false, code.sums(), sum_name);
-    end.line("radiance sum = make_radiance(diffuse, specular);");
-    const auto note = [&end](const char* field, const MaskNames& masks) {
+std::string read_function(const StackCode& code, std::size_t index) {
+    CodeBlock body(4);
+    const auto note = [&body](const char* field, const MaskNames& masks) {
         if (!masks.empty()) {
-            end.line(fmt::format("sum.{} = {};", field, fmt::join(masks, " | ")));
+            body.line(fmt::format("m.{} = {};", field, fmt::join(masks, " | ")));
         }
     };
     note("clamped", code.clamped());
     note("no_tangent", code.no_tangent());
-    end.line("return sum;");
-    return text + end.text() + "}\n\n";
+    const std::string all = code.setup().text() + body.text();
+    return fmt::format("// What the pixel's parameters say.\n"
+                       "static inline material_{0} read_material_{0}(inputs in, surface s, __constant const "
+                       "FrameConstants* frame) {{\n    material_{0} m;\n{1}    return m;\n}}\n\n",
+                       index, all.empty() ? "    m.none = FALSE_MASK;\n" : all);
+}
+
+std::string light_function(const StackCode& code, std::size_t index) {
+    CodeBlock sums(4);
+    for (const LightSum& sum : code.sums()) {
+        for (const LightSum::Term& term : sum.terms) {
+            sums.line(add_reflected(sum, term));
+        }
+    }
+    return fmt::format(
+        "// Adds a light of irradiance e0.\n"
+        "static inline sums_{0} add_light_{0}(sums_{0} sums, material_{0} m, surface s, incidence i, rgb e0) "
+        "{{\n{1}{2}    return sums;\n}}\n\n",
+        index, code.light(), sums.text());
+}
+
+std::string reflect_function(const StackCode& code, std::size_t index) {
+    CodeBlock body(4);
+    add_part(body, "diffuse", true, code.sums());
+    add_part(body, "specular", false, code.sums());
+    body.line("radiance sum = make_radiance(diffuse, specular);");
+    if (!code.clamped().empty()) {
+        body.line("sum.clamped = m.clamped;");
+    }
+    if (!code.no_tangent().empty()) {
+        body.line("sum.no_tangent = m.no_tangent;");
+    }
+    return fmt::format(
+        "// Multiplies the colours in.\n"
+        "static inline radiance reflect_{0}(material_{0} m, sums_{0} sums) {{\n{1}    return sum;\n}}\n\n",
+        index, body.text());
 }
 
 std::string claim(const BoundMaterial& material, bool by_id) {
@@ -155,33 +161,88 @@ std::string claim(const BoundMaterial& material, bool by_id) {
     return tests.empty() ? "FALSE_MASK" : fmt::format("{}", fmt::join(tests, " | "));
 }
 
+/// The function that takes a material from planes to radiance. One light is met by the caller, once for all materials.
+std::string shade_material_function(std::size_t index, bool one_light) {
+    const std::string own =
+        fmt::format("#if OUTPUT_LIGHTS >= 0\n"
+                    "{1}store_light(out, mine, s, {2}, reflect_{0}(m, add_light_{0}(none, m, s, i, e0)));\n#endif\n",
+                    index, one_light ? "    " : "        ", one_light ? "0" : "k");
+    std::string text =
+        fmt::format("// From planes to radiance; store_light needs to know which pixels are its own.\n"
+                    "static inline radiance shade_material_{}(mask mine, inputs in, surface s, results out,\n"
+                    "    __constant const FrameConstants* frame, ",
+                    index);
+    text += one_light ? "incidence i, rgb e0) {\n" : "__global const LightConstants* lights) {\n";
+    text += fmt::format("    const material_{0} m = read_material_{0}(in, s, frame);\n"
+                        "    const sums_{0} none = {{0}};\n"
+                        "    sums_{0} sums = none;\n",
+                        index);
+    if (one_light) {
+        text += fmt::format("    sums = add_light_{}(sums, m, s, i, e0);\n", index) + own;
+    } else {
+        text += fmt::format("    for (int k = 0; k < frame->light_count; ++k) {{\n"
+                            "        const incidence i = incidence_of(s, lights + k);\n"
+                            "        const rgb e0 = irradiance(lights + k, i);\n"
+                            "        sums = add_light_{}(sums, m, s, i, e0);\n",
+                            index) +
+                own + "    }\n";
+    }
+    return text + fmt::format("    return reflect_{}(m, sums);\n}}\n\n", index);
+}
+
+std::string material_functions(const Frame& frame, std::size_t index, std::vector<std::string>& warnings) {
+    const BoundMaterial& material = frame.materials[index];
+    const StackCode code(frame, index);
+    warnings.insert(warnings.end(), code.warnings().begin(), code.warnings().end());
+    std::string text = code.functions();
+    text += fmt::format("// Material {}, \"{}\": {}\n", index, comment_text(material.name), model_key(material));
+    for (std::size_t k = 0; k < material.layers.size(); ++k) {
+        text += layer_comment(frame, material, k);
+    }
+    return text + structs(code, index) + read_function(code, index) + light_function(code, index) +
+           reflect_function(code, index) + shade_material_function(index, frame.lights.size() == 1);
+}
+
 /// Which material each pixel goes to: those with claims in turn, the first for what is left.
-std::string material_choice(const Frame& frame) {
-    std::string text = wrapped(fmt::format("static inline radiance shade_materials({}) {{", arguments));
+std::string shade_function(const Frame& frame) {
+    const bool one_light = frame.lights.size() == 1;
+    const bool by_id = frame.materials.size() > 1 && frame.roles.material_id != no_plane;
+    const std::string_view lights = one_light ? "i, e0" : "lights";
+    CodeBlock body(4);
+    if (one_light) {
+        body.line("const incidence i = incidence_of(s, lights);");
+        body.line("const rgb e0 = irradiance(lights, i);");
+    }
     if (frame.materials.size() == 1) {
-        return text + "    return shade_material_0(s.alive, in, s, out, frame, lights);\n}\n\n";
+        body.line(fmt::format("return shade_material_0(s.alive, in, s, out, frame, {});", lights));
+    } else {
+        if (by_id) {
+            body.line("const real id = load_input(in, PLANE_MATERIAL_ID);");
+        }
+        body.line("mask rest = s.alive;");
+        body.line("radiance sum = no_radiance();");
+        const auto shade_mine = [&](std::size_t k, const std::string& mine) {
+            body.line(fmt::format("if (any_lane({})) {{", mine));
+            body.line(
+                fmt::format("    sum = choose_radiance({1}, shade_material_{0}({1}, in, s, out, frame, {2}), sum);", k,
+                            mine, lights));
+            body.line("}");
+        };
+        for (std::size_t k = 1; k < frame.materials.size(); ++k) {
+            const std::string mine = fmt::format("mine_{}", k);
+            body.line(fmt::format("const mask {} = rest & ({});", mine, claim(frame.materials[k], by_id)));
+            body.line(fmt::format("rest = rest & negated({});", mine));
+            shade_mine(k, mine);
+        }
+        shade_mine(0, "rest");
+        if (by_id) {
+            body.line("sum.fractional_id = is_fractional(id);");
+        }
+        body.line("return sum;");
     }
-    const bool by_id = frame.roles.material_id != no_plane;
-    if (by_id) {
-        text += "    const real id = load_input(in, PLANE_MATERIAL_ID);\n";
-    }
-    text += "    mask rest = s.alive;\n    radiance sum = no_radiance();\n";
-    for (std::size_t k = 1; k < frame.materials.size(); ++k) {
-        text += fmt::format(
-            "    const mask mine_{0} = rest & ({1});\n"
-            "    rest = rest & negated(mine_{0});\n"
-            "    if (any_lane(mine_{0})) {{\n"
-            "        sum = choose_radiance(mine_{0}, shade_material_{0}(mine_{0}, in, s, out, frame, lights), sum);\n"
-            "    }}\n",
-            k, claim(frame.materials[k], by_id));
-    }
-    text += "    if (any_lane(rest)) {\n"
-            "        sum = choose_radiance(rest, shade_material_0(rest, in, s, out, frame, lights), sum);\n"
-            "    }\n";
-    if (by_id) {
-        text += "    sum.fractional_id = is_fractional(id);\n";
-    }
-    return text + "    return sum;\n}\n\n";
+    return "static inline radiance shade_materials(inputs in, surface s, results out, __constant const FrameConstants* "
+           "frame,\n                                       __global const LightConstants* lights) {\n" +
+           body.text() + "}\n\n";
 }
 
 std::string emission_function(const Frame& frame) {
@@ -200,14 +261,16 @@ std::string emission_function(const Frame& frame) {
 MaterialsSource materials_source(const Frame& frame) {
     MaterialsSource source;
     source.text =
-        "// Written by clshade for one set of materials: a function for each, and which pixel goes to which.\n"
+        "// Written by clshade (host/shading/material_code.cpp) for one set of materials: functions for each, and\n"
+        "// which pixel goes to which. The copy in kernels/ is for Blinn-Phong + Lambert with every parameter from "
+        "planes.\n"
         "#ifndef CLSHADE_MATERIALS_CL\n#define CLSHADE_MATERIALS_CL\n\n"
         "#include \"anisotropic.cl\"\n#include \"blinn_phong.cl\"\n#include \"diffuse.cl\"\n"
         "#include \"layers.cl\"\n#include \"parameters.cl\"\n#include \"radiance.cl\"\n#include \"spectral.cl\"\n\n";
     for (std::size_t k = 0; k < frame.materials.size(); ++k) {
-        source.text += material_function(frame, k, source.warnings);
+        source.text += material_functions(frame, k, source.warnings);
     }
-    source.text += material_choice(frame) + emission_function(frame) + "\n#endif\n";
+    source.text += shade_function(frame) + emission_function(frame) + "\n#endif\n";
     return source;
 }
 

@@ -32,10 +32,10 @@ std::string ParameterReader::component(const BoundParameter& parameter, std::siz
 
 Value ParameterReader::raw(const BoundParameter& parameter, const std::string& name) {
     if (parameter.is_grey()) {
-        return block_->name(name, Value::real(component(parameter, 0)));
+        return block_->local(name, Value::real(component(parameter, 0)));
     }
-    return block_->name(name, Value::rgb(fmt::format("make_rgb({}, {}, {})", component(parameter, 0),
-                                                     component(parameter, 1), component(parameter, 2))));
+    return block_->local(name, Value::rgb(fmt::format("make_rgb({}, {}, {})", component(parameter, 0),
+                                                      component(parameter, 1), component(parameter, 2))));
 }
 
 Value ParameterReader::reflectance(const BoundParameter& parameter, const std::string& name) {

@@ -55,6 +55,11 @@ StackCode::StackCode(const Frame& frame, std::size_t material)
     for (std::size_t k = 0; k < material_->layers.size(); ++k) {
         add_layer(k);
     }
+    for (LightSum& sum : sums_) { // every lobe has N.L / max(N.L, N.E) as a factor: once for those added up already
+        for (LightSum::Term& term : sum.terms) {
+            term.share = sum.diffuse ? term.share : product(Value::real("i.ratio"), term.share);
+        }
+    }
 }
 
 std::string StackCode::name(std::string_view what, std::size_t k) const {
@@ -64,10 +69,9 @@ std::string StackCode::name(std::string_view what, std::size_t k) const {
 void StackCode::add_layer(std::size_t k) {
     const BoundLayer& layer = material_->layers[k];
     if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
-        const std::string tangents = name("tangents", k);
-        setup_.line(fmt::format("const tangent_frame {} = tangent_frame_of(s.n, {});", tangents,
-                                reader_.tangent(layer.tangent)));
-        no_tangent_.push_back(tangents + ".missing");
+        tangents_ = setup_.declare("tangent_frame", name("tangents", k),
+                                   fmt::format("tangent_frame_of(s.n, {})", reader_.tangent(layer.tangent)));
+        no_tangent_.push_back(tangents_ + ".missing");
     }
     const Interface interface = is_exact() ? exact_interface(k) : constant_interface(k);
     if (interface.present) {
@@ -206,7 +210,6 @@ Value StackCode::metal_call(std::size_t k, const MetalSurroundings& where) {
 
 void StackCode::add_lobe(std::size_t k, const Interface& interface) {
     const BoundLayer& layer = material_->layers[k];
-    const Value log2_nh2 = shared("log2_nh2", "log2_nh2_of(i)");
     Value normaliser;
     Value half_exponent;
     if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
@@ -214,15 +217,15 @@ void StackCode::add_lobe(std::size_t k, const Interface& interface) {
         const Value v = reader_.shininess(layer.shininess_v, name("shininess_v", k));
         normaliser = u.known && v.known ? Value::of(folded_normaliser_anisotropic(u.number.x, v.number.x))
                                         : call("normaliser_anisotropic", {u, v});
-        half_exponent = Value::real(
-            fmt::format("anisotropic_half_exponent(i, {}, {}, {})", name("tangents", k), real_text(u), real_text(v)));
+        half_exponent =
+            Value::real(fmt::format("anisotropic_half_exponent(i, {}, {}, {})", tangents_, real_text(u), real_text(v)));
     } else {
         const Value n = reader_.shininess(layer.shininess, name("shininess", k));
         normaliser = normaliser_value(n, is_exact() || layer.specular == SpecularModel::blinn_phong_exact);
         half_exponent = setup_.name(name("half_shininess", k), product(Value::of(0.5), n));
     }
-    const Value lobe = loop_.name(
-        name("lobe", k), Value::real(fmt::format("blinn_phong(i, {}, {})", log2_nh2.text, real_text(half_exponent))));
+    const Value lobe =
+        loop_.name(name("lobe", k), Value::real(fmt::format("cosine_power(i, {})", real_text(half_exponent))));
     const Value share = product(lobe, specular_.light);
     const Value colour = setup_.name(name("scale", k), product(normaliser, specular_.pixel));
 
@@ -280,11 +283,11 @@ void StackCode::absorb(std::size_t k) {
         return;
     }
     const std::string variable = name("absorption", k);
-    const Value absorption =
-        setup_.name_colour(variable, reader_.absorption(material_->layers[k].absorption, variable));
-    if (all_zero(absorption)) {
+    const Value read = reader_.absorption(material_->layers[k].absorption, variable);
+    if (all_zero(read)) {
         return;
     }
+    const Value absorption = loop_.local_colour(variable, read);
     if (material_->absorption == AbsorptionModel::approximated) {
         const std::string path = shared("path", "straight_path(i, s)").text;
         const std::string arguments =
@@ -324,7 +327,7 @@ void StackCode::add_base_diffuse(const Interface& base) {
     const Value albedo = reader_.reflectance(material_->albedo, "albedo");
     if (!code.terms_type.empty()) {
         const Value n = reader_.shininess(material_->diffuse_shininess, "diffuse_shininess");
-        setup_.line(fmt::format("const {} terms = {}({});", code.terms_type, code.terms_function, real_text(n)));
+        setup_.declare(code.terms_type, "terms", fmt::format("{}({})", code.terms_function, real_text(n)));
     }
     Passage left = diffuse_;
     if (base.present && is_exact()) {
@@ -354,21 +357,25 @@ void StackCode::add_sum(bool diffuse, const std::string& name, const Value& shar
     }
     const std::string light = light_here();
     if (!colour.grey) {
-        sums_.push_back({name, setup_.name_colour(name + "_colour", colour), diffuse, light, loop_.name(name, share)});
+        const Value named = setup_.name(name + "_colour", colour);
+        sums_.push_back({name, named, diffuse, {{light, loop_.name(name, share)}}});
         return;
     }
-    // Grey: multiplied in at once, so that shares of the same light need one sum only.
-    const std::string kind = diffuse ? "diffuse" : "specular";
+    // Grey: multiplied in at once, so that all such shares need one sum only.
     const Value scaled = product(setup_.name(name + "_colour", colour), share);
-    for (LightSum& sum_so_far : sums_) {
-        const bool same = sum_so_far.diffuse == diffuse && sum_so_far.light == light && sum_so_far.colour.is(1.0) &&
-                          sum_so_far.share.grey && scaled.grey;
-        if (same) {
-            sum_so_far.share = loop_.name(name + "_sum", sum(sum_so_far.share, scaled));
-            return;
+    for (LightSum& so_far : sums_) {
+        if (so_far.diffuse != diffuse || !so_far.colour.is(1.0)) {
+            continue;
         }
+        LightSum::Term& last = so_far.terms.back();
+        if (last.light == light && last.share.grey && scaled.grey) {
+            last.share = loop_.name(name + "_sum", sum(last.share, scaled));
+        } else {
+            so_far.terms.push_back({light, loop_.name(name, scaled)});
+        }
+        return;
     }
-    sums_.push_back({name, Value::of(1.0), diffuse, light, loop_.name(name, scaled)});
+    sums_.push_back({diffuse ? "diffuse" : "specular", Value::of(1.0), diffuse, {{light, loop_.name(name, scaled)}}});
 }
 
 Value StackCode::shared(const std::string& name, const std::string& expression) {

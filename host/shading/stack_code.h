@@ -13,27 +13,32 @@
 
 namespace clshade {
 
-/// Where light is added up: one sum per tint of light and colour of what reflects it.
+/// Where light is added up: one sum for every colour that is multiplied in at the end.
 struct LightSum {
-    std::string name;
-    Value colour; ///< multiplied in after the loop over the lights
+    /// What of the light that has come so far is reflected.
+    struct Term {
+        std::string light; ///< the tinted irradiance
+        Value share;
+    };
+    std::string name; ///< of the member of the sums
+    Value colour;     ///< multiplied in after the loop over the lights
     bool diffuse = false;
-    std::string light; ///< the tinted irradiance
-    Value share;       ///< what of it is reflected
+    std::vector<Term> terms;
 };
 
-/// Writes a material's code, layer by layer, top first.
-///
-/// Three places: functions before the material's own (curves of metals), what a pixel does once (`setup`), what it does
-/// for every light (`loop`), and sums over the lights with the colours that are multiplied in at the end.
+/// Writes a material's code, layer by layer, top first: what a pixel does once (`setup`, which fills the struct `m`),
+/// what it does for every light (`light`), and the sums over the lights with the colours that are multiplied in at the
+/// end.
 class StackCode {
   public:
     StackCode(const Frame& frame, std::size_t material);
 
+    /// Functions that the material's own call: curves of metals.
     [[nodiscard]] const std::string& functions() const { return functions_; }
-    [[nodiscard]] const std::string& setup() const { return setup_.text(); }
-    [[nodiscard]] const std::string& loop() const { return loop_.text(); }
+    [[nodiscard]] const CodeBlock& setup() const { return setup_; }
+    [[nodiscard]] const std::string& light() const { return loop_.text(); }
     [[nodiscard]] const std::vector<LightSum>& sums() const { return sums_; }
+    /// Expressions of type mask, to be used in `setup`.
     [[nodiscard]] const MaskNames& clamped() const { return reader_.clamped(); }
     [[nodiscard]] const MaskNames& no_tangent() const { return no_tangent_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -84,8 +89,8 @@ class StackCode {
     const BoundMaterial* material_;
     std::size_t index_;
     std::string functions_;
-    CodeBlock setup_{4};
-    CodeBlock loop_{8};
+    CodeBlock setup_{4, "m"};
+    CodeBlock loop_{4};
     ParameterReader reader_;
     std::set<std::string> shared_;
     std::vector<LightSum> sums_;
@@ -107,6 +112,7 @@ class StackCode {
     Value depth_ = Value::of(0.0);   ///< optical depth down to here (original absorption)
     bool deeper_ = false;            ///< depth_ has grown since light_ was named
     int tints_ = 0;
+    std::string tangents_; ///< text of the tangent frame of the layer at hand
 };
 
 } // namespace clshade
