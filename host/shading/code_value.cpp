@@ -186,7 +186,7 @@ std::string CodeBlock::declare(std::string_view type, std::string_view name, std
         return std::string(name);
     }
     members_ += fmt::format("    {} {};\n", type, name);
-    const std::string member = fmt::format("{}.{}", owner_, name);
+    std::string member = fmt::format("{}.{}", owner_, name);
     line(fmt::format("{} = {};", member, expression));
     return member;
 }

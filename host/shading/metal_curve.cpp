@@ -105,8 +105,8 @@ float evaluate(const MetalCurve& curve, double c, int channel) {
     const auto cosine = static_cast<float>(c);
     const float x = std::fma(cosine / (cosine + bend), 2.0F * (1.0F + bend), -1.0F);
     float value = 0.0F;
-    for (auto i = curve.coefficients.rbegin(); i != curve.coefficients.rend(); ++i) {
-        value = std::fma(value, x, static_cast<float>((*i)[channel]));
+    for (std::size_t i = curve.coefficients.size(); i-- > 0;) {
+        value = std::fma(value, x, static_cast<float>(curve.coefficients[i][channel]));
     }
     return value;
 }

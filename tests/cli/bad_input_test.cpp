@@ -169,7 +169,7 @@ std::string repeated(const std::string& text, int times) {
 
 std::vector<BadInput> bad_stacks() {
     return {
-        bad_scene("nine_layers", repeated(one_layer, 8) + lambert_base, {":18:", "default", "9 layers", "eight"}),
+        bad_scene("nine_layers", repeated(one_layer, 8) + lambert_base, {":18:", "default", "9 layers", "one to 8"}),
         bad_scene("empty_stack", "[material.default]\nlayer = []\n", {":3:", "default", "at least one"}),
         bad_scene("layer_without_anything", "[[material.default.layer]]\n" + one_layer, {":2:", "layer 1"}),
         bad_scene("diffuse_above_the_base",
@@ -224,13 +224,13 @@ BadInput bad_metal(const std::string& name, const std::string& table, std::vecto
 std::vector<BadInput> bad_tables() {
     return {
         bad_name("crypto_misspelt", "car_piant", {"in.exr", "'car_piant'", "did you mean 'car_paint'?"}),
-        bad_name("crypto_unknown", "something else entirely", {"in.exr", "'something else entirely'", "gold"}),
+        bad_name("crypto_unknown", "something else entirely", {"in.exr", "'something else entirely'", "EmitTorus"}),
         bad_metal("nk_out_of_order", "400, 1, 2\n500, 1, 2\n450, 1, 2\n", {":3:", "450", "500"}),
         bad_metal("nk_twice", "400, 1, 2\n400, 1, 2\n", {":2:", "400"}),
         bad_metal("nk_one_row", "400, 1, 2\n", {"1 row", "two or more"}),
         bad_metal("nk_nan", "400, nan, 2\n500, 1, 2\n", {":1:", "nan"}),
         bad_metal("nk_negative_k", "400, 1, 2\n500, 1, -2\n", {":2:", "-2"}),
-        bad_metal("nk_text", "wavelength n k\n400, 1, 2\n500, 1, two\n", {":1:"}),
+        bad_metal("nk_text", "wavelength n k\n400, 1, 2\n500, 1, two\n", {":3:", "two"}),
         {"nk_missing",
          2,
          {"silver.nk", "gold"},
