@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace clshade::cli {
@@ -97,6 +98,7 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
         settings.kernel_dump->add(shader, loaded.frame); // before the build, so that one that fails can be read
         outcome.stages.add("dump", watch.lap());
     }
+    std::vector<std::string> of_materials = material_warnings(loaded.frame);
     const ShadedImage shaded = shader.shade(loaded.frame);
     const double shading = watch.lap();
     const double kernel = sum_of(shaded.kernel_times);
@@ -120,9 +122,7 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
     }
     outcome.stages.add("write", watch.lap());
     outcome.warnings = std::move(loaded.warnings);
-    for (std::string& warning : material_warnings(loaded.frame)) {
-        outcome.warnings.push_back(std::move(warning));
-    }
+    std::move(of_materials.begin(), of_materials.end(), std::back_inserter(outcome.warnings));
     if (too_large > 0) {
         outcome.warnings.push_back(fmt::format("{}: {} values beyond 65504 do not fit in half and were clamped; write "
                                                "-d float",

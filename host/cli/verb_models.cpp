@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,11 @@ struct ModelsOptions {
 [[noreturn]] void refuse_name(const std::string& name) {
     std::vector<std::string_view> names;
     for (const ModelInfo& model : model_catalog()) {
+        const auto has_name = [&](const ParameterInfo& parameter) { return parameter.name == name; };
+        if (std::any_of(model.parameters.begin(), model.parameters.end(), has_name)) {
+            throw UsageError(fmt::format("models: '{0}' is a parameter, of {1} for one; see `clshade models {1}`", name,
+                                         model.name));
+        }
         names.push_back(model.name);
     }
     for (const PresetInfo& preset : preset_catalog()) {

@@ -78,6 +78,22 @@ TEST(Tangents, AreCountedWhereThereAreNone) {
     EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
 }
 
+// A device that counts something else must not get through.
+TEST(Tangents, AreCountedOnBothSides) {
+    const TemporaryFolder folder;
+    write_gbuffer(folder / "in.exr", planes_with_tangents());
+    std::filesystem::create_directory(folder / "kernels");
+    std::string text = bytes_of(std::filesystem::path(CLSHADE_SOURCE_DIR) / "kernels/shade.cl");
+    const std::string counter = "COUNT_NO_TANGENT";
+    const std::size_t at = text.find(counter);
+    ASSERT_NE(at, std::string::npos) << "the counter has moved; change this test with it";
+    text.replace(at, counter.size(), "COUNT_CLAMPED");
+    write_bytes(folder / "kernels/shade.cl", text);
+    const Outcome run = run_in(folder, with({"check", "in.exr", "--kernel-dir", "kernels"}, anisotropic));
+    EXPECT_EQ(run.exit_code, 3) << run.out << run.err;
+    EXPECT_THAT(run.out, HasSubstr("pixels without a tangent: device 0, reference 12"));
+}
+
 TEST(Tangents, ThatAreSoundAreNotWarnedAbout) {
     const TemporaryFolder folder;
     write_gbuffer(folder / "in.exr", planes_with_tangents());

@@ -57,13 +57,19 @@ TEST(Models, SuggestsOverAllNames) {
         const char* word;
         const char* suggestion;
     };
-    for (const Case& c : {Case{"lambret", "lambert"}, Case{"car_piant", "car_paint"}, Case{"layer", "layers"}}) {
+    for (const Case& c : {Case{"lambret", "lambert"}, Case{"car_piant", "car_paint"}, Case{"laiers", "layers"}}) {
         const Outcome run = run_clshade({"models", c.word});
         EXPECT_EQ(run.exit_code, 2);
         ASSERT_EQ(run.error_lines().size(), 1U) << run.err;
         EXPECT_THAT(run.err, HasSubstr("did you mean '" + std::string(c.suggestion) + "'?"));
         EXPECT_EQ(run.out, "");
     }
+}
+
+TEST(Models, KnowsWhereAParameterBelongs) {
+    const Outcome run = run_clshade({"models", "absorption_model"});
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_THAT(run.err, HasSubstr("`clshade models layers`"));
 }
 
 TEST(Models, ReportsAsJson) {
