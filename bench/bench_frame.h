@@ -20,6 +20,7 @@ inline constexpr int bench_parameter_planes = 13;
 inline constexpr int bench_tile_ids = 13;      ///< 1 to 4, each tile of 16x16 pixels has one
 inline constexpr int bench_scattered_ids = 14; ///< 1 to 4 by chance, each pixel its own
 inline constexpr int bench_planes = 15;
+inline constexpr int bench_outputs = 4; ///< R, G, B and alpha
 
 enum class BenchLights { distant1, distant8, point1, spot1 };
 

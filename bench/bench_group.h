@@ -69,6 +69,7 @@ class BenchGroup {
     BenchOptions options_;
     Frame frame_;
     Shader shader_;
+    std::shared_ptr<PictureMemory> memory_; ///< of every row and rival
     RivalMaker maker_;
     std::vector<Entrant> entrants_;
     std::vector<Contestant> contestants_;

@@ -1,13 +1,13 @@
 // `clshade bench`: every kernel timed with the limit and the rivals beside it, in one process and in turns.
 //
-// METHOD. All contestants of one picture size (our kernels, the streams, the C++ rivals) read the same planes and run
-// in turns, each round in a new order, first two warm-up rounds, then at least BenchOptions::rounds rounds and until
-// the time budget is spent. Absolute times drift with the machine, so a ratio is taken inside each round and the median
-// of these paired ratios is what counts. OpenCL kernels are timed on the device (event profiling), C++ rivals by a
-// steady clock around the call on the host: they pay their thread start, and no launch. Contestants that take over ten
-// times as long as the kernel they stand against (naive, reference) run in fewer rounds; their ratio is the median over
-// those. Before anything is timed, every rival's picture is compared with the device's: one that computes something
-// else is an error.
+// METHOD. All contestants of one picture size (our kernels, the streams, the C++ rivals) read the same planes, write to
+// the same memory (from buffer to buffer the time of one and the same kernel differs by up to 7 %) and run in turns,
+// each round in a new order, first two warm-up rounds, then at least BenchOptions::rounds rounds and until the time
+// budget is spent. Absolute times drift with the machine, so a ratio is taken inside each round and the median of these
+// paired ratios is what counts. OpenCL kernels are timed on the device (event profiling), C++ rivals by a steady clock
+// around the call on the host: they pay their thread start, and no launch. Contestants that take over ten times as long
+// as the kernel they stand against (naive, reference) run in fewer rounds; their ratio is the median over those. Before
+// anything is timed, every rival's picture is compared with the device's: one that computes something else is an error.
 #pragma once
 
 #include "host/device/device.h"

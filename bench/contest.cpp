@@ -4,10 +4,12 @@
 #include "host/reference/reference.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 namespace clshade {
@@ -45,6 +47,26 @@ double stream_difference(const Frame& frame, int planes_in, const PlaneSlab& out
     return worst;
 }
 
+/// The result planes are the host's for as long as this lives.
+class HostTurn {
+  public:
+    explicit HostTurn(PictureMemory& memory) : memory_(&memory) { memory_->result_buffer.download(); }
+    ~HostTurn() {
+        try {
+            memory_->result_buffer.upload();
+        } catch (const std::exception& failure) { // the next launch will fail and say so
+            spdlog::debug("giving memory back to the device: {}", failure.what());
+        }
+    }
+    HostTurn(const HostTurn&) = delete;
+    HostTurn& operator=(const HostTurn&) = delete;
+    HostTurn(HostTurn&&) = delete;
+    HostTurn& operator=(HostTurn&&) = delete;
+
+  private:
+    PictureMemory* memory_;
+};
+
 RivalEntry impossible(BenchStatus status, std::string reason) {
     RivalEntry entry;
     entry.status = status;
@@ -66,6 +88,11 @@ double picture_difference(const PlaneSlab& device, const std::function<double(in
         }
     }
     return worst;
+}
+
+void spoil(PictureMemory& memory) {
+    const HostTurn turn(memory);
+    std::fill_n(memory.result.data(), memory.result.all().size(), std::numeric_limits<float>::quiet_NaN());
 }
 
 std::string rival_id(Rival rival, const BenchRow& row, int planes_in, int planes_out) {
@@ -96,11 +123,13 @@ RivalEntry RivalMaker::make(Rival rival, const BenchRow& row, int planes_in, int
 }
 
 RivalEntry RivalMaker::stream_opencl(int planes_in, int planes_out) {
-    const auto rival = std::make_shared<StreamRival>(*device_, *frame_, planes_in, planes_out, lanes_);
+    const auto rival =
+        std::make_shared<StreamRival>(*device_, memory_, frame_->planes.stride(), planes_in, planes_out, lanes_);
     RivalEntry entry;
     entry.run = [rival] { return rival->run(); };
-    entry.difference = [rival, planes_in, planes_out, frame = frame_](const PlaneSlab&) {
-        return stream_difference(*frame, planes_in, rival->output(), planes_out);
+    entry.difference = [memory = memory_, planes_in, planes_out, frame = frame_](const PlaneSlab&) {
+        const HostTurn turn(*memory);
+        return stream_difference(*frame, planes_in, memory->result, planes_out);
     };
     return entry;
 }
@@ -108,24 +137,28 @@ RivalEntry RivalMaker::stream_opencl(int planes_in, int planes_out) {
 RivalEntry RivalMaker::stream_cpp(int planes_in, int planes_out) {
     host();
     RivalEntry entry;
-    entry.run = [rival = host_, planes_in, planes_out] { return rival->stream(planes_in, planes_out); };
-    entry.difference = [rival = host_, planes_in, planes_out, frame = frame_](const PlaneSlab&) {
-        return stream_difference(*frame, planes_in, rival->output(), planes_out);
+    entry.run = [rival = host_, memory = memory_, planes_in, planes_out] {
+        const HostTurn turn(*memory);
+        return rival->stream(planes_in, planes_out);
+    };
+    entry.difference = [memory = memory_, planes_in, planes_out, frame = frame_](const PlaneSlab&) {
+        const HostTurn turn(*memory);
+        return stream_difference(*frame, planes_in, memory->result, planes_out);
     };
     return entry;
 }
 
 RivalEntry RivalMaker::host_shading(Rival rival, int planes_out) {
     host();
-    const std::vector<rivals::DistantLight> lights = distant_lights(*frame_);
     RivalEntry entry;
-    if (rival == Rival::openmp_simd) {
-        entry.run = [host = host_, lights, planes_out] { return host->openmp_simd(lights, planes_out); };
-    } else {
-        entry.run = [host = host_, lights, planes_out] { return host->hand_simd(lights, planes_out); };
-    }
-    entry.difference = [host = host_](const PlaneSlab& picture) {
-        return picture_difference(picture, [&host](int p, int x, int y) { return host->output().at(p, x, y); });
+    entry.run = [rival, host = host_, memory = memory_, lights = distant_lights(*frame_), planes_out] {
+        const HostTurn turn(*memory);
+        return rival == Rival::openmp_simd ? host->openmp_simd(lights, planes_out)
+                                           : host->hand_simd(lights, planes_out);
+    };
+    entry.difference = [memory = memory_](const PlaneSlab& picture) {
+        const HostTurn turn(*memory);
+        return picture_difference(picture, [&memory](int p, int x, int y) { return memory->result.at(p, x, y); });
     };
     return entry;
 }
@@ -172,7 +205,7 @@ RivalEntry RivalMaker::reference(const BenchScene& scene) {
 
 HostRivals& RivalMaker::host() {
     if (!host_) {
-        host_ = std::make_shared<HostRivals>(*frame_, threads_);
+        host_ = std::make_shared<HostRivals>(*frame_, memory_->result, threads_);
     }
     return *host_;
 }

@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace clshade {
 
@@ -30,14 +31,19 @@ struct RivalEntry {
     std::function<double(const PlaneSlab& picture)> difference;
 };
 
+/// Fills what is written with NaN, so that a rival that writes nothing cannot pass with another's picture.
+void spoil(PictureMemory& memory);
+
 /// What a rival of a row works on; rivals of equal id are one contestant.
 [[nodiscard]] std::string rival_id(Rival rival, const BenchRow& row, int planes_in, int planes_out);
 
-/// Makes the rivals of one bench frame. Refers to device and frame.
+/// Makes the rivals of one bench frame. They read and write where the kernels do: time depends on which pages memory
+/// got. Refers to device and frame.
 class RivalMaker {
   public:
-    RivalMaker(Device& device, Frame& frame, int threads, int lanes)
-        : device_(&device), frame_(&frame), threads_(threads), lanes_(lanes) {}
+    /// `memory` is of the frame's planes and four outputs.
+    RivalMaker(Device& device, Frame& frame, std::shared_ptr<PictureMemory> memory, int threads, int lanes)
+        : device_(&device), frame_(&frame), memory_(std::move(memory)), threads_(threads), lanes_(lanes) {}
 
     /// The rival for a row whose kernel reads and writes that many planes. The frame must hold the row's scene.
     [[nodiscard]] RivalEntry make(Rival rival, const BenchRow& row, int planes_in, int planes_out);
@@ -52,6 +58,7 @@ class RivalMaker {
 
     Device* device_;
     Frame* frame_;
+    std::shared_ptr<PictureMemory> memory_;
     int threads_;
     int lanes_;
     std::shared_ptr<HostRivals> host_; ///< made when first needed

@@ -5,6 +5,7 @@
 #include "host/device/device.h"
 #include "host/device/program.h"
 #include "host/gbuffer/frame.h"
+#include "host/shading/shader.h"
 
 #include <memory>
 #include <span>
@@ -14,20 +15,17 @@ namespace clshade {
 /// The sources of bench/kernels, embedded at build time.
 [[nodiscard]] SourceSet rival_sources();
 
-/// Streams the first planes of a bench frame into as many planes as a shading kernel writes. Refers to the frame.
+/// Streams the first planes of a bench frame into as many planes as a shading kernel writes.
 class StreamRival {
   public:
     /// planes_in 1 to 16, planes_out 1 to 4. Throws RuntimeFailure.
-    StreamRival(Device& device, Frame& frame, int planes_in, int planes_out, int lanes);
+    StreamRival(Device& device, std::shared_ptr<PictureMemory> memory, std::size_t plane_stride, int planes_in,
+                int planes_out, int lanes);
     /// Runs once; milliseconds on the device.
     double run();
-    /// Fetches and returns what run() wrote.
-    [[nodiscard]] const PlaneSlab& output();
 
   private:
-    PlaneSlab output_slab_;
-    Buffer input_;
-    Buffer output_;
+    std::shared_ptr<PictureMemory> memory_;
     Kernel kernel_;
     std::size_t work_items_;
 };

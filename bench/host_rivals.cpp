@@ -98,9 +98,8 @@ std::vector<std::string_view> instruction_sets() {
     return names;
 }
 
-HostRivals::HostRivals(const Frame& frame, int threads, std::string_view instruction_set)
-    : frame_(&frame), kernels_(&kernels_named(instruction_set)),
-      output_(frame.planes.width(), frame.planes.height(), 4), pool_(threads_or_all(threads)) {}
+HostRivals::HostRivals(const Frame& frame, PlaneSlab& output, int threads, std::string_view instruction_set)
+    : frame_(&frame), kernels_(&kernels_named(instruction_set)), output_(&output), pool_(threads_or_all(threads)) {}
 
 double HostRivals::openmp_simd(const std::vector<rivals::DistantLight>& lights, int planes_out) {
     return shade(kernels_->openmp_simd, lights, planes_out);
@@ -112,7 +111,7 @@ double HostRivals::hand_simd(const std::vector<rivals::DistantLight>& lights, in
 
 double HostRivals::stream(int planes_in, int planes_out) {
     const rivals::Planes where = planes(planes_in, planes_out);
-    return pool_.run(output_.padded_pixels(), chunk,
+    return pool_.run(output_->padded_pixels(), chunk,
                      [this, &where](std::size_t begin, std::size_t end) { kernels_->stream(where, begin, end); });
 }
 
@@ -125,8 +124,8 @@ rivals::Planes HostRivals::planes(int planes_in, int planes_out) {
     where.in = frame_->planes.data();
     where.in_stride = frame_->planes.stride();
     where.planes_in = planes_in;
-    where.out = output_.data();
-    where.out_stride = output_.stride();
+    where.out = output_->data();
+    where.out_stride = output_->stride();
     where.planes_out = planes_out;
     return where;
 }
@@ -135,7 +134,7 @@ double HostRivals::shade(rivals::ShadeRange work, const std::vector<rivals::Dist
     const rivals::Planes where = planes(bench_parameter_planes, planes_out);
     const glm::vec3 eye = frame_->view.eye;
     const rivals::Scene scene{{eye.x, eye.y, eye.z}, lights.data(), static_cast<int>(lights.size())};
-    return pool_.run(output_.padded_pixels(), chunk,
+    return pool_.run(output_->padded_pixels(), chunk,
                      [&](std::size_t begin, std::size_t end) { work(where, scene, begin, end); });
 }
 

@@ -20,21 +20,19 @@ namespace clshade {
 
 struct HostKernels;
 
-/// Runs the rivals with the widest instructions the processor has. Refers to the frame, whose planes must stay; the
-/// lights are handed over so that the frame's own may change.
+/// Runs the rivals with the widest instructions the processor has. Refers to the frame, whose planes must stay, and to
+/// the planes to write, R, G, B and alpha; the lights are handed over so that the frame's own may change.
 class HostRivals {
   public:
     /// threads: 0 stands for all processors. instruction_set: one of instruction_sets(), empty for the widest; throws
     /// std::invalid_argument for another.
-    HostRivals(const Frame& frame, int threads, std::string_view instruction_set = {});
+    HostRivals(const Frame& frame, PlaneSlab& output, int threads, std::string_view instruction_set = {});
 
     // Each does its work once and returns its milliseconds. planes_out: 3, or 4 with alpha.
     double openmp_simd(const std::vector<rivals::DistantLight>& lights, int planes_out);
     double hand_simd(const std::vector<rivals::DistantLight>& lights, int planes_out);
     double stream(int planes_in, int planes_out);
 
-    /// What the last one wrote: R, G, B, alpha.
-    [[nodiscard]] const PlaneSlab& output() const { return output_; }
     [[nodiscard]] int threads() const { return pool_.threads(); }
     [[nodiscard]] std::string_view instruction_set() const;
 
@@ -44,7 +42,7 @@ class HostRivals {
 
     const Frame* frame_;
     const HostKernels* kernels_;
-    PlaneSlab output_;
+    PlaneSlab* output_;
     WorkerPool pool_;
 };
 

@@ -31,28 +31,20 @@ SourceSet rival_sources() {
     return sources;
 }
 
-StreamRival::StreamRival(Device& device, Frame& frame, int planes_in, int planes_out, int lanes)
-    : output_slab_(frame.planes.width(), frame.planes.height(), planes_out),
-      input_(device, std::as_writable_bytes(frame.planes.all()), Access::read),
-      output_(device, std::as_writable_bytes(output_slab_.all()), Access::write),
-      kernel_(stream_program(device, planes_in, planes_out, lanes), "stream"),
-      work_items_(frame.planes.padded_pixels() / static_cast<std::size_t>(lanes)) {
+StreamRival::StreamRival(Device& device, std::shared_ptr<PictureMemory> memory, std::size_t plane_stride, int planes_in,
+                         int planes_out, int lanes)
+    : memory_(std::move(memory)), kernel_(stream_program(device, planes_in, planes_out, lanes), "stream"),
+      work_items_(memory_->result.padded_pixels() / static_cast<std::size_t>(lanes)) {
     const auto units = static_cast<std::size_t>(lanes);
-    input_.upload();
-    kernel_.set_argument(0, input_);
-    kernel_.set_argument(1, static_cast<std::uint32_t>(frame.planes.stride() / units));
-    kernel_.set_argument(2, output_);
-    kernel_.set_argument(3, static_cast<std::uint32_t>(output_slab_.stride() / units));
+    kernel_.set_argument(0, memory_->plane_buffer);
+    kernel_.set_argument(1, static_cast<std::uint32_t>(plane_stride / units));
+    kernel_.set_argument(2, memory_->result_buffer);
+    kernel_.set_argument(3, static_cast<std::uint32_t>(memory_->result.stride() / units));
 }
 
 double StreamRival::run() {
     kernel_.launch(work_items_, local_size);
     return kernel_.wait_milliseconds();
-}
-
-const PlaneSlab& StreamRival::output() {
-    output_.download();
-    return output_slab_;
 }
 
 } // namespace clshade

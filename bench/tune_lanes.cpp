@@ -28,7 +28,7 @@ struct Width {
 };
 
 Width prepare_width(Device& device, const BenchOptions& options, int lanes, Frame& frame,
-                    std::vector<Contestant>& contestants) {
+                    const std::shared_ptr<PictureMemory>& memory, std::vector<Contestant>& contestants) {
     Width width;
     width.time.lanes = lanes;
     try {
@@ -39,7 +39,7 @@ Width prepare_width(Device& device, const BenchOptions& options, int lanes, Fram
         std::vector<Contestant> own;
         for (const BenchLights lights : tuning_lights) {
             apply_scene(frame, {.lights = lights});
-            const auto prepared = std::make_shared<PreparedFrame>(width.shader->prepare(frame));
+            const auto prepared = std::make_shared<PreparedFrame>(width.shader->prepare(frame, memory));
             own.push_back({fmt::format("{} lanes", lanes), [prepared] {
                                prepared->launch();
                                return prepared->wait_milliseconds();
@@ -62,6 +62,7 @@ LaneTuning tune_lanes(Device& device, const BenchOptions& options, const BenchPr
     constexpr std::array<int, 4> candidates = {1, 4, 8, 16};
     const bool own_size = options.width > 0 && options.height > 0;
     Frame frame = make_bench_frame(own_size ? options.width : 1280, own_size ? options.height : 720, options.seed);
+    const auto memory = std::make_shared<PictureMemory>(device, frame, bench_outputs); // the same pages for all
     std::vector<Contestant> contestants;
     std::vector<Width> widths;
     for (const int lanes : candidates) {
@@ -69,7 +70,7 @@ LaneTuning tune_lanes(Device& device, const BenchOptions& options, const BenchPr
             progress(fmt::format("building for {} lanes", lanes), static_cast<int>(widths.size()),
                      static_cast<int>(candidates.size()) + 1);
         }
-        widths.push_back(prepare_width(device, options, lanes, frame, contestants));
+        widths.push_back(prepare_width(device, options, lanes, frame, memory, contestants));
     }
     const auto first_good = std::find_if(widths.begin(), widths.end(),
                                          [](const Width& width) { return width.time.status == BenchStatus::ok; });

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 namespace clshade {
@@ -88,19 +89,24 @@ std::uint64_t frame_bytes(const Frame& frame, std::size_t outputs) {
 
 } // namespace
 
+PictureMemory::PictureMemory(Device& device, Frame& frame, int outputs)
+    : result(frame.planes.width(), frame.planes.height(), outputs),
+      plane_buffer(device, std::as_writable_bytes(frame.planes.all()), Access::read),
+      result_buffer(device, std::as_writable_bytes(result.all()), Access::read_write) {
+    const auto start = Clock::now();
+    plane_buffer.upload();
+    result_buffer.upload();
+    transfer_milliseconds = milliseconds_since(start);
+}
+
 struct PreparedFrame::State {
-    State(Device& device, const Program& built, Frame& frame, std::vector<std::string> names, int lane_count)
+    State(Device& device, const Program& built, const Frame& frame, std::vector<std::string> names, int lane_count,
+          std::shared_ptr<PictureMemory> place)
         : program(built), plane_names(std::move(names)), lanes(lane_count), constants(device, frame),
           kernel(built, "shade"), inputs(static_cast<int>(clshade::planes_read(frame).size())), key(kernel_key(frame)),
-          bytes(frame_bytes(frame, plane_names.size())),
-          result(frame.planes.width(), frame.planes.height(), static_cast<int>(plane_names.size())),
-          plane_buffer(device, std::as_writable_bytes(frame.planes.all()), Access::read),
-          result_buffer(device, std::as_writable_bytes(result.all()), Access::read_write) {
-        const auto start = Clock::now();
-        plane_buffer.upload();
-        result_buffer.upload();
-        set_arguments(kernel, plane_buffer, frame.planes.stride(), result_buffer, result.stride(), constants);
-        transfer_milliseconds = milliseconds_since(start);
+          bytes(frame_bytes(frame, plane_names.size())), memory(std::move(place)) {
+        set_arguments(kernel, memory->plane_buffer, frame.planes.stride(), memory->result_buffer,
+                      memory->result.stride(), constants);
     }
 
     Program program;
@@ -111,10 +117,7 @@ struct PreparedFrame::State {
     int inputs;
     std::string key;
     std::uint64_t bytes;
-    PlaneSlab result;
-    Buffer plane_buffer;
-    Buffer result_buffer;
-    double transfer_milliseconds = 0.0;
+    std::shared_ptr<PictureMemory> memory;
     double kernel_milliseconds = 0.0;
 };
 
@@ -124,7 +127,7 @@ PreparedFrame::PreparedFrame(PreparedFrame&&) noexcept = default;
 PreparedFrame& PreparedFrame::operator=(PreparedFrame&&) noexcept = default;
 
 void PreparedFrame::launch() {
-    state_->kernel.launch(state_->result.padded_pixels() / static_cast<std::size_t>(state_->lanes), work_group);
+    state_->kernel.launch(state_->memory->result.padded_pixels() / static_cast<std::size_t>(state_->lanes), work_group);
 }
 
 double PreparedFrame::wait_milliseconds() {
@@ -142,7 +145,7 @@ int PreparedFrame::planes_read() const {
 }
 
 int PreparedFrame::planes_written() const {
-    return state_->result.count();
+    return state_->memory->result.count();
 }
 
 const std::string& PreparedFrame::key() const {
@@ -155,19 +158,20 @@ const BuildReport& PreparedFrame::build() const {
 
 ShadedImage PreparedFrame::take() {
     const auto start = Clock::now();
-    state_->result_buffer.download();
-    state_->plane_buffer.download(); // the host may write the planes again
+    PictureMemory& memory = *state_->memory;
+    memory.result_buffer.download();
+    memory.plane_buffer.download(); // the host may write the planes again
     ShadedImage image;
     image.counts = state_->constants.read_counts();
-    image.transfer_milliseconds = state_->transfer_milliseconds + milliseconds_since(start);
+    image.transfer_milliseconds = memory.transfer_milliseconds + milliseconds_since(start);
     image.kernel_times = {{state_->key, state_->kernel_milliseconds, state_->bytes}};
     image.plane_names = state_->plane_names;
     const BuildReport& report = state_->program.report();
     image.identity = report.identity;
     image.built_from_cache = report.from_cache;
     image.build_milliseconds = report.milliseconds;
-    state_->result_buffer = Buffer(); // before the memory it stands on goes away
-    image.planes = std::move(state_->result);
+    memory.result_buffer = Buffer(); // before the memory it stands on goes away
+    image.planes = std::move(memory.result);
     return image;
 }
 
@@ -220,9 +224,18 @@ const Program& Shader::program_for(const Frame& frame) {
 }
 
 PreparedFrame Shader::prepare(Frame& frame) {
+    const auto outputs = static_cast<int>(output_plane_names(frame, options_.aovs).size());
+    return prepare(frame, std::make_shared<PictureMemory>(*device_, frame, outputs));
+}
+
+PreparedFrame Shader::prepare(Frame& frame, std::shared_ptr<PictureMemory> memory) {
+    std::vector<std::string> names = output_plane_names(frame, options_.aovs);
+    if (static_cast<int>(names.size()) != memory->result.count()) {
+        throw std::invalid_argument("a frame's outputs do not fit the picture's memory");
+    }
     const Program& program = program_for(frame);
-    return PreparedFrame(std::make_unique<PreparedFrame::State>(*device_, program, frame,
-                                                                output_plane_names(frame, options_.aovs), lanes_));
+    return PreparedFrame(
+        std::make_unique<PreparedFrame::State>(*device_, program, frame, std::move(names), lanes_, std::move(memory)));
 }
 
 std::size_t Shader::band_pixels(const Frame& frame, std::size_t outputs) const {

@@ -38,6 +38,19 @@ struct ShadedImage {
     double transfer_milliseconds = 0.0;
 };
 
+/// A picture's place on the device: its planes, and room for what kernels write. Refers to the frame's planes, which
+/// must outlive it. Kernels that are compared with each other work on one: time depends on which pages they got.
+struct PictureMemory {
+    /// Copies the planes to the device where it has memory of its own; `outputs` planes to write. Throws
+    /// RuntimeFailure.
+    PictureMemory(Device& device, Frame& frame, int outputs);
+
+    PlaneSlab result;
+    Buffer plane_buffer;
+    Buffer result_buffer; ///< over `result`
+    double transfer_milliseconds = 0.0;
+};
+
 /// A frame bound to the device: planes uploaded, constants written, arguments set; launch as often as you like.
 /// Refers to the frame it was made from, which must outlive it. Move-only.
 class PreparedFrame {
@@ -59,7 +72,7 @@ class PreparedFrame {
     /// Stable key of the kernel: "shade.blinn_phong.lambert.distant1" (several materials: "mixed4").
     [[nodiscard]] const std::string& key() const;
     [[nodiscard]] const BuildReport& build() const;
-    /// Brings results to the host and gives them away.
+    /// Brings results to the host and gives them away, and with them the picture's memory.
     [[nodiscard]] ShadedImage take();
 
     struct State;
@@ -80,6 +93,9 @@ class Shader {
     [[nodiscard]] ShadedImage shade(Frame& frame);
     /// For benches: the whole frame in one launch. Throws RuntimeFailure if it does not fit.
     [[nodiscard]] PreparedFrame prepare(Frame& frame);
+    /// The same in memory that others of the same planes use too, in turns. Throws std::invalid_argument where the
+    /// frame's outputs are not as many as the memory's.
+    [[nodiscard]] PreparedFrame prepare(Frame& frame, std::shared_ptr<PictureMemory> memory);
 
     /// Every file of the program for a frame, the generated ones among them, for people to read from shade.cl on, and
     /// the options of its build.

@@ -5,13 +5,19 @@
 #include "bench/host_rivals.h"
 #include "host/device/device.h"
 #include "host/reference/reference.h"
+#include "host/shading/kernel_library.h"
+#include "host/shading/shader.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace clshade {
 namespace {
@@ -44,33 +50,36 @@ class HostRivalsTest : public ::testing::TestWithParam<std::string_view> {};
 TEST_P(HostRivalsTest, OneLightAgreesWithTheReference) {
     const Frame frame = frame_of(BenchLights::distant1);
     const auto lights = distant_lights(frame);
-    HostRivals rivals(frame, 2, GetParam());
+    PlaneSlab output(width, height, 4);
+    HostRivals rivals(frame, output, 2, GetParam());
     EXPECT_EQ(rivals.instruction_set(), GetParam());
     EXPECT_GT(rivals.openmp_simd(lights, 4), 0.0);
     // The usual form of N.H at n = 256 (models.md section 14) leaves up to 1e-4 of a highlight in single precision.
-    EXPECT_LT(difference_from_reference(frame, rivals.output()), 1e-4);
+    EXPECT_LT(difference_from_reference(frame, output), 1e-4);
     EXPECT_GT(rivals.hand_simd(lights, 4), 0.0);
-    EXPECT_LT(difference_from_reference(frame, rivals.output()), 1e-4);
+    EXPECT_LT(difference_from_reference(frame, output), 1e-4);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            ASSERT_EQ(rivals.output().at(3, x, y), 1.0F) << x << ", " << y;
+            ASSERT_EQ(output.at(3, x, y), 1.0F) << x << ", " << y;
         }
     }
 }
 
 TEST_P(HostRivalsTest, EightLightsAgreeWithTheReference) {
     const Frame frame = frame_of(BenchLights::distant8);
-    HostRivals rivals(frame, 2, GetParam());
+    PlaneSlab output(width, height, 4);
+    HostRivals rivals(frame, output, 2, GetParam());
     rivals.hand_simd(distant_lights(frame), 3);
-    EXPECT_LT(difference_from_reference(frame, rivals.output()), 1e-4);
+    EXPECT_LT(difference_from_reference(frame, output), 1e-4);
 }
 
 TEST_P(HostRivalsTest, ThreeOutputPlanesLeaveAlphaAlone) {
     const Frame frame = frame_of(BenchLights::distant1);
-    HostRivals rivals(frame, 1, GetParam());
+    PlaneSlab output(width, height, 4);
+    HostRivals rivals(frame, output, 1, GetParam());
     rivals.openmp_simd(distant_lights(frame), 3);
     rivals.hand_simd(distant_lights(frame), 3);
-    EXPECT_EQ(rivals.output().at(3, 5, 5), 0.0F);
+    EXPECT_EQ(output.at(3, 5, 5), 0.0F);
 }
 
 TEST_P(HostRivalsTest, PixelsWithoutANormalAreBlackAndTransparent) {
@@ -78,19 +87,21 @@ TEST_P(HostRivalsTest, PixelsWithoutANormalAreBlackAndTransparent) {
     for (int p = 0; p < 3; ++p) {
         frame.planes.at(p, 30, 40) = 0.0F;
     }
-    HostRivals rivals(frame, 1, GetParam());
+    PlaneSlab output(width, height, 4);
+    HostRivals rivals(frame, output, 1, GetParam());
     for (const bool by_hand : {false, true}) {
         by_hand ? rivals.hand_simd(distant_lights(frame), 4) : rivals.openmp_simd(distant_lights(frame), 4);
         for (int p = 0; p < 4; ++p) {
-            EXPECT_EQ(rivals.output().at(p, 30, 40), 0.0F) << "plane " << p;
+            EXPECT_EQ(output.at(p, 30, 40), 0.0F) << "plane " << p;
         }
-        EXPECT_EQ(rivals.output().at(3, 31, 40), 1.0F);
+        EXPECT_EQ(output.at(3, 31, 40), 1.0F);
     }
 }
 
 TEST_P(HostRivalsTest, StreamReadsEveryPlane) {
     const Frame frame = frame_of(BenchLights::distant1);
-    HostRivals rivals(frame, 2, GetParam());
+    PlaneSlab output(width, height, 4);
+    HostRivals rivals(frame, output, 2, GetParam());
     for (const int planes_in : {3, 13, 14}) {
         rivals.stream(planes_in, 4);
         for (int y = 0; y < height; y += 7) {
@@ -102,8 +113,8 @@ TEST_P(HostRivalsTest, StreamReadsEveryPlane) {
                     size += std::abs(static_cast<double>(frame.planes.at(p, x, y)));
                 }
                 // 14 additions in floats: at most 14 roundings of 6e-8 of the sum of sizes.
-                ASSERT_NEAR(rivals.output().at(0, x, y), sum, 1e-6 * size);
-                ASSERT_NEAR(rivals.output().at(3, x, y), 4.0 * sum, 4e-6 * size);
+                ASSERT_NEAR(output.at(0, x, y), sum, 1e-6 * size);
+                ASSERT_NEAR(output.at(3, x, y), 4.0 * sum, 4e-6 * size);
             }
         }
     }
@@ -119,7 +130,8 @@ INSTANTIATE_TEST_SUITE_P(InstructionSets, HostRivalsTest, ::testing::ValuesIn(in
 
 TEST(HostRivals, UnknownInstructionSetsAndLightsAreRefused) {
     const Frame frame = frame_of(BenchLights::point1);
-    EXPECT_THROW(HostRivals(frame, 1, "z80"), std::invalid_argument);
+    PlaneSlab output(width, height, 4);
+    EXPECT_THROW(HostRivals(frame, output, 1, "z80"), std::invalid_argument);
     EXPECT_THROW((void)distant_lights(frame), std::invalid_argument);
 }
 
@@ -149,9 +161,11 @@ TEST(DeviceRivals, StreamReadsEveryPlaneAtEveryWidth) {
     for (const int lanes : {1, 4, 8, 16}) {
         for (const auto& [planes_in, planes_out] : {std::pair(13, 3), std::pair(14, 4)}) {
             Frame frame = frame_of(BenchLights::distant1);
-            StreamRival rival(device, frame, planes_in, planes_out, lanes);
+            const auto memory = std::make_shared<PictureMemory>(device, frame, 4);
+            StreamRival rival(device, memory, frame.planes.stride(), planes_in, planes_out, lanes);
             EXPECT_GT(rival.run(), 0.0);
-            const PlaneSlab& output = rival.output();
+            memory->result_buffer.download();
+            const PlaneSlab& output = memory->result;
             for (int x = 0; x < width; ++x) {
                 double sum = 0.0;
                 double size = 0.0;
@@ -166,6 +180,48 @@ TEST(DeviceRivals, StreamReadsEveryPlaneAtEveryWidth) {
             }
         }
     }
+}
+
+TEST(PictureMemory, KernelsWriteToItInTurns) {
+    Device device = cpu();
+    Shader shader(device, kernel_sources(), ProgramCache::standard(), {});
+    Frame frame = frame_of(BenchLights::distant1);
+    const auto memory = std::make_shared<PictureMemory>(device, frame, bench_outputs);
+    const std::array<BenchScene, 2> scenes = {
+        BenchScene{}, {.materials = {coated(1, FresnelModel::constant, AbsorptionModel::approximated)}}};
+    std::vector<PreparedFrame> prepared;
+    std::vector<PlaneSlab> expected;
+    for (const BenchScene& scene : scenes) {
+        apply_scene(frame, scene);
+        expected.push_back(std::move(shader.shade(frame).planes));
+        prepared.push_back(shader.prepare(frame, memory));
+    }
+    for (const std::size_t turn : {0, 1, 0}) {
+        spoil(*memory);
+        prepared[turn].launch();
+        EXPECT_GT(prepared[turn].wait_milliseconds(), 0.0);
+        memory->result_buffer.download();
+        EXPECT_EQ(
+            picture_difference(expected[turn], [&memory](int p, int x, int y) { return memory->result.at(p, x, y); }),
+            0.0)
+            << turn;
+        EXPECT_GT(picture_difference(expected[1 - turn],
+                                     [&memory](int p, int x, int y) { return memory->result.at(p, x, y); }),
+                  0.0);
+        memory->result_buffer.upload();
+    }
+    const auto too_small = std::make_shared<PictureMemory>(device, frame, 3);
+    EXPECT_THROW((void)shader.prepare(frame, too_small), std::invalid_argument);
+}
+
+TEST(PictureMemory, WhatIsSpoiltIsNoPicture) {
+    Device device = cpu();
+    Frame frame = frame_of(BenchLights::distant1);
+    PictureMemory memory(device, frame, bench_outputs);
+    spoil(memory);
+    memory.result_buffer.download();
+    EXPECT_TRUE(std::isinf(picture_difference(PlaneSlab(width, height, 4),
+                                              [&memory](int p, int x, int y) { return memory.result.at(p, x, y); })));
 }
 
 TEST(PictureDifference, SeesOneWrongPixelAndNaN) {
