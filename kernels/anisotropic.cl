@@ -34,11 +34,12 @@ static inline tangent_frame tangent_frame_of(vec3 n, vec3 tangent) {
     return f;
 }
 
-// e/2 with e = (n_u (T.H)^2 + n_v (B.H)^2) / (1 - (N.H)^2). H's length cancels; at the highlight's centre, where both
-// products vanish, any value will do.
+// e/2 with e = (n_u (T.H)^2 + n_v (B.H)^2) / (1 - (N.H)^2). H's length cancels, and only its part across N counts: so
+// that what rounding left of N in T, much where the tangent is nearly parallel to it, does not. At the highlight's
+// centre, where both products vanish, any value will do.
 static inline real anisotropic_half_exponent(incidence i, tangent_frame f, real shininess_u, real shininess_v) {
-    const real th = dot3(f.t, i.h);
-    const real bh = dot3(f.b, i.h);
+    const real th = dot3(f.t, i.across);
+    const real bh = dot3(f.b, i.across);
     const real t = th * th;
     const real b = bh * bh;
     return 0.5f * fma(shininess_u, t, shininess_v * b) * inverse(larger(t + b, splat(1e-24f)));

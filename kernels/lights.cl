@@ -15,7 +15,7 @@ typedef struct {
     real el;       // E.L
     real two_eh;   // 2 E.H = |L + E|
     real log2_nh2; // log2 (N.H)^2: one for all lobes
-    vec3 h;        // L + E, not of unit length
+    vec3 across;   // the part of L + E at a right angle to N
     real ratio;    // min(1, N.L / N.E): N.L / max(N.L, N.E)
 } incidence;
 
@@ -36,7 +36,7 @@ static inline incidence make_incidence(surface s, vec3 l, real strength) {
     const real nh = larger(along, splat(SMALLEST_NH));
     // The part of h across N. What rounding does to `along` moves it along N, at a right angle to what is wanted.
     const vec3 across = make_vec3(fma(-along, s.n.x, h.x), fma(-along, s.n.y, h.y), fma(-along, s.n.z, h.z));
-    i.h = h;
+    i.across = across;
     i.two_eh = hh * inverse_h;
     // |H - (N.H) N|^2 is 1 - (N.H)^2 without cancellation near the highlight's centre.
     i.log2_nh2 = log2_cosine_squared(nh * nh * inverse_hh, dot3(across, across) * inverse_hh);
