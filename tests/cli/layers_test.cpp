@@ -13,7 +13,6 @@ namespace clshade::tests {
 namespace {
 
 using ::testing::AllOf;
-using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 Outcome run_in(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {

@@ -1,6 +1,7 @@
 // `models`: the catalogue, its pages, its report, its pictures.
 #include "tests/cli/run_program.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -106,12 +107,13 @@ TEST(Presets, PrintTomlThatAUserCouldWrite) {
         const std::string heading = "\n  [material." + preset + "]\n";
         const std::size_t at = page.find(heading);
         ASSERT_NE(at, std::string::npos) << page;
-        const std::string light = "[[light]]\ntype = \"distant\"\ndirection = [0, 0, -1]\nirradiance = 1.0\n";
-        const std::string claim = "ids = [1, 2, 3, 4, 5]\n";
-        write_bytes(folder / "full.toml", "version = 1\n" + light + page.substr(at, heading.size()) + claim +
-                                              page.substr(at + heading.size()));
-        write_bytes(folder / "short.toml",
-                    "version = 1\n" + light + "[material.mine]\npreset = \"" + preset + "\"\n" + claim);
+        const std::size_t rest = at + heading.size();
+        constexpr std::string_view start =
+            "version = 1\n[[light]]\ntype = \"distant\"\ndirection = [0, 0, -1]\nirradiance = 1.0\n";
+        constexpr std::string_view claim = "ids = [1, 2, 3, 4, 5]\n";
+        write_bytes(folder / "full.toml",
+                    fmt::format("{}{}{}{}", start, page.substr(at, heading.size()), claim, page.substr(rest)));
+        write_bytes(folder / "short.toml", fmt::format("{}[material.mine]\npreset = \"{}\"\n{}", start, preset, claim));
         std::vector<std::string> keys;
         for (const char* scene : {"full.toml", "short.toml"}) {
             const Outcome plan = run_clshade(
