@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace clshade {
 namespace {
@@ -13,6 +14,7 @@ constexpr int height = 61;
 
 class EveryModel : public testing::TestWithParam<std::tuple<SpecularModel, DiffuseModel>> {};
 
+// The widths differ in lanes.cl alone: all four for the first choice of diffuse model, the extremes for the others.
 TEST_P(EveryModel, AgreesWithTheReferenceAtEveryLaneWidth) {
     const auto [specular, diffuse] = GetParam();
     if (specular == SpecularModel::none && diffuse == DiffuseModel::none) {
@@ -20,7 +22,8 @@ TEST_P(EveryModel, AgreesWithTheReferenceAtEveryLaneWidth) {
     }
     Frame frame = random_frame(width, height, specular, diffuse, 7);
     const reference::Image expected = reference::shade(frame, {}, 2);
-    for (const int lanes : {1, 4, 8, 16}) {
+    const bool every_width = diffuse == DiffuseModel::oren_nayar;
+    for (const int lanes : every_width ? std::vector<int>{1, 4, 8, 16} : std::vector<int>{1, 16}) {
         expect_agreement(shade(frame, lanes), expected, frame, std::to_string(lanes) + " lanes");
     }
 }
