@@ -10,7 +10,7 @@
 
 typedef struct {
     vec3 t, b;    // unit tangent and bitangent, at right angles to N
-    mask missing; // no tangent, or one parallel to N: a frame of N alone stands in
+    mask missing; // no tangent, one parallel to N or beyond all measure: a frame of N alone stands in
 } tangent_frame;
 
 // Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 2017): the first axis of a frame around n.
@@ -27,7 +27,7 @@ static inline tangent_frame tangent_frame_of(vec3 n, vec3 tangent) {
     const real t2 = dot3(tangent, tangent);
     tangent_frame f;
     f.missing = (u2 < SMALLEST_TANGENT_SINE * SMALLEST_TANGENT_SINE * t2) |
-                (t2 < splat(SHORTEST_TANGENT * SHORTEST_TANGENT));
+                (t2 < splat(SHORTEST_TANGENT * SHORTEST_TANGENT)) | (t2 > splat(FLT_MAX));
     const vec3 projected = scale3(u, inverse_sqrt(choose(f.missing, splat(1.0f), u2)));
     f.t = choose3(f.missing, any_tangent(n), projected);
     f.b = cross3(n, f.t);

@@ -1,6 +1,6 @@
 // What varies between programs but not between pixels: which planes a frame has, where they lie, what is written.
 // This default is one distant light on thirteen planes; the host writes its own for every other structure
-// (host/shading/generated_source.cpp) and the kernels below are the same for all. An absent plane is -1.
+// (host/shading/frame_layout.cpp) and the kernels below are the same for all. An absent plane is -1.
 #ifndef CLSHADE_FRAME_LAYOUT_H
 #define CLSHADE_FRAME_LAYOUT_H
 

@@ -22,15 +22,20 @@ static inline mask has_name(real id, uint bits) {
     return AS_INTEGER(id) == (integer)((int)bits);
 }
 
-// Ids are whole numbers in float planes (pixel rule 7).
-static inline mask has_id(real id, float wanted) {
-    return fabs(id - wanted) < splat(0.5f);
+// Ids are whole numbers in float planes (pixel rule 7). A filtered plane holds halves often: they go to the even
+// number, as IEEE arithmetic rounds. From 2^23 on floats are whole, so that a sum with it has no fraction.
+static inline real nearest_whole(real id) {
+    const real big = choose(id < splat(0.0f), splat(-8388608.0f), splat(8388608.0f));
+    return choose(fabs(id) < splat(8388608.0f), (id + big) - big, id);
 }
 
-// Further than 0.01 from a whole number: the plane was filtered. From 2^22 on no float is.
-static inline mask is_fractional(real id) {
-    const real nearest = (id + ROUNDING_MAGIC) - ROUNDING_MAGIC;
-    return (fabs(id - nearest) > splat(0.01f)) & (fabs(id) < splat(4194304.0f));
+static inline mask has_id(real whole_id, float wanted) {
+    return whole_id == splat(wanted);
+}
+
+// Further than 0.01 from a whole number: the plane was filtered.
+static inline mask is_fractional(real id, real whole_id) {
+    return fabs(id - whole_id) > splat(0.01f);
 }
 
 // n = 2/r^4 - 2 for a GGX roughness r (alpha = r^2); r = 0 gives Inf, which the clamp takes to the largest shininess.

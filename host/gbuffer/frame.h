@@ -24,14 +24,13 @@
 //     oren_nayar_sigma: 2/x^2; index_of_refraction: ((x-1)/(x+1))^2 with x at least 1; division by zero gives the upper
 //     clamp.
 //     Tangent: t = plane (unorm encoding: 2 (plane / c) - 1; camera space: turned as the normal), or a constant in
-//     world space. u = t - (t.N) N. Where |t| < 1e-6 or |u| < 1e-4 |t| the tangent is missing or parallel to the
-//     normal: the pixel is counted, and T is the first axis of the frame that Duff et al. ("Building an Orthonormal
-//     Basis, Revisited", JCGT 2017) build on N alone; else T = u/|u|. B = N x T.
+//     world space. u = t - (t.N) N. Where |t| < 1e-6, |t|^2 overflows a float or |u| < 1e-4 |t| the tangent is missing
+//     or parallel to the normal: the pixel is counted, and T is the first axis of the frame that Duff et al. ("Building
+//     an Orthonormal Basis, Revisited", JCGT 2017) build on N alone; else T = u/|u|. B = N x T.
 //  7. Material: the first in the list that claims the pixel, `default` (the first) where none does. An `ids` claim
-//  holds
-//     where the material_id plane's value, rounded to the nearest whole number, is in the list; a Cryptomatte claim
-//     where the rank 0 id of its plane has the claim's bits. A value of the material_id plane further than 0.01 from a
-//     whole number is counted as a fractional id (on covered pixels).
+//     holds where the material_id plane's value, rounded to the nearest whole number (halves to the even one), is in
+//     the list; a Cryptomatte claim where the rank 0 id of its plane has the claim's bits. A value of the material_id
+//     plane further than 0.01 from a whole number is counted as a fractional id (on covered pixels).
 //  8. Lights: L, E_0 as in scene.h. NL = N.L; no light unless NL > 0. NE = max(N.E, 1e-4) wherever formulas say N.E.
 //     With m = sqrt(max(|L+E|^2, 1e-12)): H = (L+E)/m, E.H = |L+E|^2/(2 m), N.H = max(N.(L+E), 1e-12)/m, so that a
 //     surface seen from behind needs no case of its own. NH^0 = 1. gamma = E.L - NE NL with the clamped NE;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace clshade::reference {
@@ -24,7 +25,8 @@ TangentFrame tangent_frame(const glm::dvec3& t, const glm::dvec3& normal) {
     TangentFrame frame;
     const double length = glm::length(t);
     const glm::dvec3 u = t - glm::dot(t, normal) * normal;
-    frame.missing = !(length >= 1e-6) || glm::length(u) < 1e-4 * length;
+    const bool absurd = length * length > static_cast<double>(std::numeric_limits<float>::max());
+    frame.missing = !(length >= 1e-6) || glm::length(u) < 1e-4 * length || absurd;
     frame.tangent = frame.missing ? duff_axis(normal) : glm::normalize(u);
     frame.bitangent = glm::cross(normal, frame.tangent);
     return frame;

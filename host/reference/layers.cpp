@@ -31,12 +31,13 @@ glm::dvec3 reflectance_at_normal_incidence(const LayerValues& layer, const Inter
     return r;
 }
 
-Interface find_interface(const LayerValues& layer, bool is_base, const glm::dvec3& above) {
+/// `outer`: nothing above it has an interface. Not told from m_{k-1} = 1: n of an F0 below 1e-32 rounds to 1.
+Interface find_interface(const LayerValues& layer, bool is_base, const glm::dvec3& above, const glm::bvec3& outer) {
     Interface interface;
     interface.above = above;
+    interface.outer = outer;
     for (int i = 0; i < 3; ++i) {
         interface.present[i] = layer.specular != SpecularModel::none && (is_base || layer.f0[i] > 0.0);
-        interface.outer[i] = above[i] == 1.0;
     }
     interface.medium = select(interface.present, layer.index, above);
     interface.r = select(interface.present, reflectance_at_normal_incidence(layer, interface), glm::dvec3(0.0));
@@ -88,9 +89,13 @@ glm::dvec3 base_diffuse_weight(const LayerValues& base, const glm::dvec3& u, con
 
 void find_interfaces(MaterialValues& material) {
     glm::dvec3 above(1.0);
+    glm::bvec3 outer(true);
     for (LayerValues& layer : material.layers()) {
-        layer.interface = find_interface(layer, &layer == &material.base(), above);
+        layer.interface = find_interface(layer, &layer == &material.base(), above, outer);
         above = layer.interface.medium;
+        for (int i = 0; i < 3; ++i) {
+            outer[i] = outer[i] && !layer.interface.present[i];
+        }
     }
 }
 

@@ -153,7 +153,7 @@ std::string reflect_function(const StackCode& code, std::size_t index) {
 std::string claim(const BoundMaterial& material, bool by_id) {
     std::vector<std::string> tests;
     for (const std::int64_t id : by_id ? material.ids : std::vector<std::int64_t>{}) {
-        tests.push_back(fmt::format("has_id(id, {}.0f)", id));
+        tests.push_back(fmt::format("has_id(whole_id, {}.0f)", id));
     }
     for (const CryptomatteClaim& name : material.cryptomatte) {
         tests.push_back(fmt::format("has_name(load_input(in, {}), 0x{:08x}u)", name.plane, name.bits));
@@ -218,6 +218,7 @@ std::string shade_function(const Frame& frame) {
     } else {
         if (by_id) {
             body.line("const real id = load_input(in, PLANE_MATERIAL_ID);");
+            body.line("const real whole_id = nearest_whole(id);");
         }
         body.line("mask rest = s.alive;");
         body.line("radiance sum = no_radiance();");
@@ -236,7 +237,7 @@ std::string shade_function(const Frame& frame) {
         }
         shade_mine(0, "rest");
         if (by_id) {
-            body.line("sum.fractional_id = is_fractional(id);");
+            body.line("sum.fractional_id = is_fractional(id, whole_id);");
         }
         body.line("return sum;");
     }

@@ -55,6 +55,9 @@ std::complex<double> index_at(const Metal& metal, double wavelength) {
 /// rs = (c - m c') / (c + m c') and rp = (m c - c') / (m c + c') with m c' = sqrt(m^2 - 1 + c^2); models.md section 4
 /// has the same in real numbers.
 double conductor_reflectance(std::complex<double> m, double c) {
+    if (m == 1.0) {
+        return 0.0; // no interface; c = 0 would be 0/0
+    }
     const std::complex<double> mc = std::sqrt(m * m - 1.0 + c * c);
     const std::complex<double> m2 = m * m;
     const double rs = c == 0.0 ? 1.0 : std::norm((c - mc) / (c + mc));
@@ -130,14 +133,18 @@ double largest_error(const MetalCurve& curve, const Truth& truth) {
 glm::dvec3 metal_reflectance(const Metal& metal, const MetalSurroundings& where, double c) {
     glm::dvec3 weighted(0.0);
     glm::dvec3 weights(0.0);
+    const bool same = where.index == glm::dvec3(where.index.x) && where.constant == glm::bvec3(where.constant.x);
     for (int w = first_wavelength; w <= last_wavelength; w += wavelength_step) {
         const glm::dvec3 matching = matching_rgb(w);
         const std::complex<double> index = index_at(metal, w);
+        double reflectance = 0.0;
         for (int channel = 0; channel < 3; ++channel) {
-            const double medium = where.index[channel];
-            const double inside = where.refracted ? refracted_cosine(c, medium) : c;
-            weighted[channel] +=
-                matching[channel] * conductor_reflectance(index / medium, where.constant[channel] ? 1.0 : inside);
+            if (channel == 0 || !same) {
+                const double medium = where.index[channel];
+                const double inside = where.refracted ? refracted_cosine(c, medium) : c;
+                reflectance = conductor_reflectance(index / medium, where.constant[channel] ? 1.0 : inside);
+            }
+            weighted[channel] += matching[channel] * reflectance;
         }
         weights += matching;
     }

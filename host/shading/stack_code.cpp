@@ -51,7 +51,7 @@ Value normaliser_value(const Value& n, bool exact) {
 } // namespace
 
 StackCode::StackCode(const Frame& frame, std::size_t material)
-    : frame_(&frame), material_(&frame.materials[material]), index_(material), reader_(frame, setup_) {
+    : material_(&frame.materials[material]), index_(material), reader_(frame, setup_) {
     for (std::size_t k = 0; k < material_->layers.size(); ++k) {
         add_layer(k);
     }
@@ -98,11 +98,15 @@ bool StackCode::read_f0(std::size_t k, Value& f0) {
         return false;
     }
     if (layer.specular == SpecularModel::blinn_phong_spectral) {
+        if (!medium_.known) {
+            throw RuntimeFailure(
+                fmt::format("material '{}': the layers above its metal must have constant f0", material_->name));
+        }
         const glm::dvec3 in_air = glm::clamp(metal_reflectance(layer.metal, {}, 1.0), 0.0, 1.0);
         f0 = Value::of(in_air);
         amplitude_ = Value::of(amplitude_of(in_air));
-        below_ = amplitude_;
-        return true;
+        below_ = is_base(k) ? amplitude_ : Value::of(folded_medium(amplitude_.number, medium_.number));
+        return is_base(k) || !all_zero(f0);
     }
     f0 = reader_.reflectance(layer.f0, name("f0", k));
     if (!is_base(k) && all_zero(f0)) {
@@ -126,10 +130,10 @@ StackCode::Interface StackCode::constant_interface(std::size_t k) {
     }
     const BoundLayer& layer = material_->layers[k];
     if (layer.specular == SpecularModel::blinn_phong_spectral) {
-        const glm::dvec3 above = medium_.number; // constant: the frame says so
-        MetalSurroundings where{
+        const glm::dvec3 above = medium_.number;
+        const MetalSurroundings where{
             .index = index_of(above), .refracted = false, .constant = glm::notEqual(above, glm::dvec3(0.0))};
-        here.r = Value::of(glm::clamp(metal_reflectance(layer.metal, where, 1.0), 0.0, 1.0));
+        here.r = product(Value::of(glm::clamp(metal_reflectance(layer.metal, where, 1.0), 0.0, 1.0)), reflecting(k));
         if (!glm::all(where.constant)) {
             here.fresnel = metal_call(k, where);
         }
@@ -180,12 +184,12 @@ StackCode::Interface StackCode::exact_interface(std::size_t k) {
     return here;
 }
 
+Value StackCode::reflecting(std::size_t k) const {
+    return Value::of(is_base(k) ? glm::dvec3(1.0) : glm::dvec3(glm::greaterThan(amplitude_.number, glm::dvec3(0.0))));
+}
+
 Value StackCode::metal_call(std::size_t k, const MetalSurroundings& where) {
     const Metal& metal = material_->layers[k].metal;
-    if (!medium_.known) {
-        throw RuntimeFailure(
-            fmt::format("material '{}': the layers above its metal must have constant f0", material_->name));
-    }
     const MetalCurve curve = fit_metal_curve(metal, where);
     if (curve.error > curve_warning) {
         warnings_.push_back(fmt::format("material '{}': the Fresnel curve of '{}' is fitted to within {:.1g} only",
@@ -205,7 +209,7 @@ Value StackCode::metal_call(std::size_t k, const MetalSurroundings& where) {
     }
     functions_ += "    return clamp_rgb(p, 0.0f, 1.0f);\n}\n\n";
     const Value c = shared("c", "0.5f * i.two_eh");
-    return loop_.name(name("fresnel", k), Value::rgb(fmt::format("{}({})", function, c.text)));
+    return loop_.name(name("fresnel", k), product(Value::rgb(fmt::format("{}({})", function, c.text)), reflecting(k)));
 }
 
 void StackCode::add_lobe(std::size_t k, const Interface& interface) {

@@ -44,8 +44,8 @@ class StackCode {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
   private:
-    /// An interface as light meets it: F = r + gain weight in the constant model, `curve` for metals, `fresnel` in the
-    /// exact one.
+    /// An interface as light meets it: F = r + gain weight in the constant model, `fresnel` for metals and in the exact
+    /// one.
     struct Interface {
         bool present = false;
         Value r = Value::of(0.0);
@@ -66,6 +66,9 @@ class StackCode {
     [[nodiscard]] bool read_f0(std::size_t k, Value& f0);
     [[nodiscard]] Interface constant_interface(std::size_t k);
     [[nodiscard]] Interface exact_interface(std::size_t k);
+    /// Of the metal at hand: 1 in the channels where it has an interface, 0 where its spectrum left none above the
+    /// base.
+    [[nodiscard]] Value reflecting(std::size_t k) const;
     /// Writes the polynomial of a metal and returns a call of it.
     [[nodiscard]] Value metal_call(std::size_t k, const MetalSurroundings& where);
     void add_lobe(std::size_t k, const Interface& interface);
@@ -85,7 +88,6 @@ class StackCode {
     /// "shininess", or "shininess_2" in a stack.
     [[nodiscard]] std::string name(std::string_view what, std::size_t k) const;
 
-    const Frame* frame_;
     const BoundMaterial* material_;
     std::size_t index_;
     std::string functions_;

@@ -144,6 +144,8 @@ TEST(TangentFrames, MissingOnesComeFromTheNormalAlone) {
     EXPECT_TRUE(missing({0.0, 0.0, -5.0}, up)); // parallel
     EXPECT_TRUE(missing({0.99e-4, 0.0, 1.0}, up));
     EXPECT_FALSE(missing({1.01e-4, 0.0, 1.0}, up));
+    EXPECT_TRUE(missing({1.9e19, 0.0, 0.0}, up)); // its square is no float
+    EXPECT_FALSE(missing({1.8e19, 0.0, 0.0}, up));
     // Duff et al. 2017: b1 = (1 + s x^2 a, s x y a, -s x), a = -1/(s + z), s = sign of z
     const glm::dvec3 n = glm::normalize(glm::dvec3(0.6, -0.3, -0.2));
     const double a = -1.0 / (-1.0 + n.z);

@@ -84,6 +84,29 @@ TEST(Stacks, NoAbsorptionIsTheLimitOfEachAbsorption) {
     }
 }
 
+/// One that reflects red light only: its reflectance in green leaves 0..1 and is clamped to 0.
+Metal red_metal() {
+    return {"red.txt", {{380.0, 1.0, 0.0}, {600.0, 1.0, 0.0}, {640.0, 0.1, 8.0}, {780.0, 0.1, 8.0}}};
+}
+
+TEST(Stacks, AMetalHasNoInterfaceInChannelsItDoesNotReflect) {
+    for (const FresnelModel fresnel : {FresnelModel::constant, FresnelModel::exact}) {
+        for (const std::size_t place : {0U, 1U}) {
+            StackShape shape;
+            shape.layers = {SpecularModel::blinn_phong, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact};
+            shape.layers[place] = SpecularModel::blinn_phong_spectral;
+            shape.fresnel = fresnel;
+            shape.largest_shininess = 2048.0;
+            Frame frame = random_frame(101, 37, shape, 21);
+            frame.materials[0].layers[place].metal = red_metal();
+            const ShadedImage image = shade(frame, 16);
+            EXPECT_EQ(materials_source(frame).warnings.size(), 0U);
+            expect_agreement(image, reference::shade(frame, {}, 2), frame,
+                             std::string(name_of(fresnel)) + ", red metal at " + std::to_string(place));
+        }
+    }
+}
+
 struct Vector {
     glm::dvec3 light, eye; // relative to N = +Z
     nlohmann::json inputs;
