@@ -48,7 +48,7 @@ struct Value {
 /// A float literal that gives the same number back: "0.1f", "512.0f".
 [[nodiscard]] std::string float_literal(double number);
 
-/// Breaks a line at 120 columns after commas and before operators; continuation lines are indented by four more.
+/// Breaks a line at 120 columns, after a comma or a `|`; continuation lines are indented by four more.
 [[nodiscard]] std::string wrapped(std::string_view line);
 
 /// Lines of a function's body. What they name are constants of the function, or members of a struct that another

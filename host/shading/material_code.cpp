@@ -42,8 +42,8 @@ std::string layer_comment(const Frame& frame, const BoundMaterial& material, std
         text += parameter_comment(frame, "f0", layer.f0);
     }
     if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
-        text += parameter_comment(frame, "shininess", layer.shininess_u) +
-                parameter_comment(frame, "by", layer.shininess_v);
+        text += parameter_comment(frame, "shininess_u", layer.shininess_u) +
+                parameter_comment(frame, "shininess_v", layer.shininess_v);
     } else if (layer.specular != SpecularModel::none) {
         text += parameter_comment(frame, "shininess", layer.shininess);
     }

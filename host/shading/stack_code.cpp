@@ -344,7 +344,9 @@ void StackCode::add_base_diffuse(const Interface& base) {
             left.light = product(left.light, where);
         }
     }
-    const Value colour = product(product(albedo, Value::of(1.0 / std::numbers::pi)), left.pixel);
+    const Value lambertian = Value::of(1.0 / std::numbers::pi);
+    const Value colour = left.pixel.known ? product(albedo, product(lambertian, left.pixel))
+                                          : product(product(albedo, lambertian), left.pixel);
     if (material_->diffuse == DiffuseModel::oren_nayar_full) {
         loop_.line(fmt::format("const oren_nayar_full_value scattered = {};", code.value));
         add_sum(true, "diffuse", product(Value::real("scattered.first"), left.light), colour);

@@ -107,6 +107,42 @@ TEST(Stacks, AMetalHasNoInterfaceInChannelsItDoesNotReflect) {
     }
 }
 
+TEST(Stacks, AbsurdTangentsCountAsMissing) {
+    StackShape shape;
+    shape.layers = {SpecularModel::blinn_phong_anisotropic};
+    shape.largest_shininess = 2048.0;
+    Frame frame = random_frame(101, 37, shape, 4);
+    const std::uint64_t before = shade(frame, 16).counts.no_tangent;
+    const auto& tangent = frame.materials[0].base().tangent.planes;
+    for (int x = 0; x < 101; ++x) {
+        frame.planes.at(tangent[1], x, 7) = 3e30F; // its square is no float
+    }
+    const ShadedImage image = shade(frame, 16);
+    EXPECT_GT(image.counts.no_tangent, before + 50U);
+    expect_agreement(image, reference::shade(frame, {}, 2), frame, "tangents of 3e30");
+}
+
+// What stands below meets light from inside, however little the layer reflects: its index need not be told from 1.
+TEST(Stacks, AnInterfaceIsOneHoweverSmallItsF0) {
+    for (const bool mapped : {false, true}) {
+        StackShape shape;
+        shape.layers = {SpecularModel::blinn_phong, SpecularModel::blinn_phong};
+        shape.largest_shininess = 2048.0;
+        Frame frame = random_frame(101, 37, shape, 4);
+        BoundParameter& f0 = frame.materials[0].layers[0].f0;
+        for (int y = 0; y < 37; ++y) {
+            for (int x = 0; x < 101; ++x) {
+                frame.planes.at(f0.planes[1], x, y) = 1e-36F;
+            }
+        }
+        if (!mapped) {
+            f0 = BoundParameter{};
+            f0.constant = {0.04, 1e-36, 0.0};
+        }
+        expect_agreement(shade(frame, 16), reference::shade(frame, {}, 2), frame, mapped ? "mapped" : "constant");
+    }
+}
+
 struct Vector {
     glm::dvec3 light, eye; // relative to N = +Z
     nlohmann::json inputs;
