@@ -5,6 +5,7 @@
 #include "host/gbuffer/frame.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace clshade {
@@ -32,6 +33,7 @@ struct BenchScene {
     std::vector<BoundMaterial> materials = {single_layer()}; ///< several: the first takes the pixels with id 1, ...
     BenchLights lights = BenchLights::distant1;
     BenchIds ids = BenchIds::tiles; ///< of no meaning for one material
+    std::string variant = {};       ///< tells apart rows of one model: where its F0 comes from
 };
 
 /// Waves and a grid of spheres seen in perspective; no coverage and no depth plane, every pixel has a surface. Smooth

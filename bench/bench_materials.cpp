@@ -97,20 +97,22 @@ BoundMaterial single_layer(SpecularModel specular, DiffuseModel diffuse) {
     return material;
 }
 
-BoundMaterial coated(int coats, FresnelModel fresnel, AbsorptionModel absorption) {
+BoundMaterial layer_base() {
+    BoundMaterial material = single_layer();
+    material.base().f0 = constant(f0_of_index(2.0));
+    return material;
+}
+
+BoundMaterial coated(int coats, FresnelModel fresnel, AbsorptionModel absorption, BoundMaterial base) {
     if (coats < 1 || coats > most_coats) {
         throw std::invalid_argument("a bench material has one to seven coats");
     }
-    BoundMaterial material = single_layer();
-    material.fresnel = fresnel;
-    material.absorption = absorption;
-    const BoundLayer base = material.base();
-    material.layers.clear();
-    for (int k = 0; k < coats; ++k) {
-        material.layers.push_back(layer_of(coats_top_first.at(static_cast<std::size_t>(k)), absorption));
+    base.fresnel = fresnel;
+    base.absorption = absorption;
+    for (int k = coats - 1; k >= 0; --k) {
+        base.layers.insert(base.layers.begin(), layer_of(coats_top_first.at(static_cast<std::size_t>(k)), absorption));
     }
-    material.layers.push_back(base);
-    return material;
+    return base;
 }
 
 BoundMaterial skin() {

@@ -39,7 +39,14 @@ std::string_view name_of(BenchLights lights) {
 }
 
 BenchScene scene_of(BoundMaterial material, BenchLights lights = BenchLights::distant1) {
-    return {.materials = {std::move(material)}, .lights = lights, .ids = BenchIds::tiles};
+    return {.materials = {std::move(material)}, .lights = lights, .ids = BenchIds::tiles, .variant = {}};
+}
+
+/// What the coated rows are measured against.
+BenchScene bare_scene() {
+    BenchScene scene = scene_of(layer_base());
+    scene.variant = "constant_f0";
+    return scene;
 }
 
 BenchScene coated_scene(int coats, AbsorptionModel absorption) {
@@ -66,8 +73,22 @@ BenchRow against_lambert(BenchScene scene, std::vector<Rival> rivals = streams) 
     return row;
 }
 
+BenchRow against_base(BenchScene scene, std::vector<Rival> rivals = streams) {
+    BenchRow row = row_of(std::move(scene), std::move(rivals));
+    row.baselines.push_back({"", {bare_scene()}});
+    return row;
+}
+
+/// A coat on a base whose F0 comes from a map: three planes and three square roots more.
+BenchRow mapped_base_row() {
+    BenchScene scene = scene_of(coated(1, FresnelModel::constant, AbsorptionModel::approximated, single_layer()));
+    scene.variant = "f0_map";
+    return against_lambert(std::move(scene));
+}
+
 BenchRow mixed_row(BenchIds ids) {
-    BenchRow row = row_of({.materials = mixed_materials(), .lights = BenchLights::distant1, .ids = ids}, streams);
+    BenchRow row =
+        row_of({.materials = mixed_materials(), .lights = BenchLights::distant1, .ids = ids, .variant = {}}, streams);
     BenchBaseline alone{std::string(mean_alone), {}};
     for (const BoundMaterial& material : row.scene.materials) {
         alone.scenes.push_back(scene_of(material));
@@ -81,12 +102,14 @@ std::vector<BenchRow> main_rows() {
     using enum AbsorptionModel;
     std::vector<BenchRow> rows = {row_of({}, all_rivals)};
     rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong, DiffuseModel::oren_nayar))));
+    rows.push_back(against_lambert(bare_scene()));
     for (const AbsorptionModel absorption : {none, approximated, original}) {
-        rows.push_back(against_lambert(coated_scene(1, absorption)));
+        rows.push_back(against_base(coated_scene(1, absorption)));
     }
     for (const int coats : {3, most_coats}) {
-        rows.push_back(against_lambert(coated_scene(coats, approximated)));
+        rows.push_back(against_base(coated_scene(coats, approximated)));
     }
+    rows.push_back(mapped_base_row());
     rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong_anisotropic))));
     rows.push_back(against_lambert(scene_of(skin())));
     rows.push_back(mixed_row(BenchIds::tiles));
@@ -108,8 +131,8 @@ std::vector<BenchRow> further_rows() {
     }
     rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong_exact))));
     rows.push_back(against_lambert(scene_of(single_layer(SpecularModel::blinn_phong_spectral, DiffuseModel::none))));
-    rows.push_back(against_lambert(scene_of(coated(1, FresnelModel::exact, AbsorptionModel::original)),
-                                   {Rival::stream_opencl, Rival::stream_cpp, Rival::reference}));
+    rows.push_back(against_base(scene_of(coated(1, FresnelModel::exact, AbsorptionModel::original)),
+                                {Rival::stream_opencl, Rival::stream_cpp, Rival::reference}));
     return rows;
 }
 
@@ -187,7 +210,8 @@ std::string BenchRow::key() const {
 
 std::string row_name(const BenchScene& scene) {
     if (scene.materials.size() == 1) {
-        return fmt::format("shade.{}.{}", model_key(scene.materials.front()), name_of(scene.lights));
+        return fmt::format("shade.{}{}{}.{}", model_key(scene.materials.front()), scene.variant.empty() ? "" : ".",
+                           scene.variant, name_of(scene.lights));
     }
     return fmt::format("shade.mixed{}.{}.{}", scene.materials.size(),
                        scene.ids == BenchIds::tiles ? "tiles" : "scattered", name_of(scene.lights));
@@ -230,21 +254,22 @@ std::vector<DeckEntry> deck_entries() {
     constexpr std::string_view single = "one directional light, single layer";
     constexpr std::string_view lambert = "one light, Blinn-Lambert";
     const std::string ours = row_name({});
+    const std::string base = row_name(bare_scene());
     const auto dual = [](AbsorptionModel absorption) { return row_name(coated_scene(1, absorption)); };
     const std::string oren_nayar =
         row_name(scene_of(single_layer(SpecularModel::blinn_phong, DiffuseModel::oren_nayar)));
     return {
-        {single, single, 1.0, ours, ours},
-        {"one directional light, dual layer, no absorption", single, 1.030, dual(none), ours},
-        {"one directional light, dual layer, approximated absorption", single, 1.121, dual(approximated), ours},
-        {"one directional light, dual layer, original absorption", single, 1.606, dual(original), ours},
+        {single, single, 1.0, base, base},
+        {"one directional light, dual layer, no absorption", single, 1.030, dual(none), base},
+        {"one directional light, dual layer, approximated absorption", single, 1.121, dual(approximated), base},
+        {"one directional light, dual layer, original absorption", single, 1.606, dual(original), base},
         {lambert, lambert, 1.0, ours, ours},
         {"one light, Blinn-Oren-Nayar", lambert, 1.289, oren_nayar, ours},
     };
 }
 
 std::vector<LayerEntry> layer_entries() {
-    std::vector<LayerEntry> entries = {{1, row_name({})}};
+    std::vector<LayerEntry> entries = {{1, row_name(bare_scene())}};
     for (const int coats : {1, 3, most_coats}) {
         entries.push_back({coats + 1, row_name(coated_scene(coats, AbsorptionModel::approximated))});
     }

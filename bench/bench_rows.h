@@ -35,7 +35,8 @@ struct BenchRow {
     [[nodiscard]] std::string key() const;
 };
 
-/// "shade.blinn_phong.lambert.distant1"; several materials: "shade.mixed4.tiles.distant1".
+/// "shade.blinn_phong.lambert.distant1"; with a variant "shade.blinn_phong.lambert.constant_f0.distant1"; several
+/// materials: "shade.mixed4.tiles.distant1".
 [[nodiscard]] std::string row_name(const BenchScene& scene);
 
 /// The one-light Lambert kernel that others are measured against.

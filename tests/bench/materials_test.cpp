@@ -17,14 +17,16 @@ using ::testing::Each;
 using ::testing::Ge;
 
 TEST(BenchMaterials, TheDecksStacksShareTheBaseOfTheSingleLayer) {
-    const BoundMaterial single = single_layer();
+    const BoundMaterial single = layer_base();
+    EXPECT_NEAR(single.base().f0.constant.r, 1.0 / 9.0, 1e-15); // index 2
     for (const AbsorptionModel absorption :
          {AbsorptionModel::none, AbsorptionModel::approximated, AbsorptionModel::original}) {
         const BoundMaterial dual = coated(1, FresnelModel::constant, absorption);
         ASSERT_EQ(dual.layers.size(), 2U);
         EXPECT_EQ(dual.absorption, absorption);
         EXPECT_EQ(dual.base().specular, single.base().specular);
-        EXPECT_EQ(dual.base().f0.planes, single.base().f0.planes);
+        EXPECT_TRUE(dual.base().f0.is_constant());
+        EXPECT_EQ(dual.base().f0.constant, single.base().f0.constant);
         EXPECT_EQ(dual.base().shininess.planes, single.base().shininess.planes);
         EXPECT_EQ(dual.albedo.planes, single.albedo.planes);
         EXPECT_EQ(dual.diffuse, DiffuseModel::lambert);

@@ -46,11 +46,13 @@ TEST(BenchRows, KeysAreStable) {
     const std::vector<std::string> at_both_sizes = {
         "shade.blinn_phong.lambert.distant1",
         "shade.blinn_phong.oren_nayar.distant1",
+        "shade.blinn_phong.lambert.constant_f0.distant1",
         "shade.layers2.blinn_phong.lambert.constant.none.distant1",
         "shade.layers2.blinn_phong.lambert.constant.approximated.distant1",
         "shade.layers2.blinn_phong.lambert.constant.original.distant1",
         "shade.layers4.blinn_phong.lambert.constant.approximated.distant1",
         "shade.layers8.blinn_phong.lambert.constant.approximated.distant1",
+        "shade.layers2.blinn_phong.lambert.constant.approximated.f0_map.distant1",
         "shade.blinn_phong_anisotropic.lambert.distant1",
         "shade.layers2.blinn_phong.oren_nayar.constant.approximated.distant1",
         "shade.mixed4.tiles.distant1",
