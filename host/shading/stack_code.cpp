@@ -14,6 +14,9 @@ namespace {
 
 /// Further from the spectral sum than this a fitted curve is worth a warning.
 constexpr double curve_warning = 1e-5;
+/// And beyond this the picture would be wrong: a metal without absorption and with n below 1 reflects totally from its
+/// critical angle on, a kink that no polynomial follows.
+constexpr double curve_failure = 1e-3;
 
 bool all_zero(const Value& value) {
     return value.is(0.0);
@@ -191,6 +194,12 @@ Value StackCode::reflecting(std::size_t k) const {
 Value StackCode::metal_call(std::size_t k, const MetalSurroundings& where) {
     const Metal& metal = material_->layers[k].metal;
     const MetalCurve curve = fit_metal_curve(metal, where);
+    if (curve.error > curve_failure) {
+        throw UsageError(
+            fmt::format("material '{}': the Fresnel curve of metal '{}' has a kink (n below 1 and hardly any "
+                        "k), which clshade cannot follow closer than {:.1g}; use blinn_phong with f0",
+                        material_->name, metal.name, curve.error));
+    }
     if (curve.error > curve_warning) {
         warnings_.push_back(fmt::format("material '{}': the Fresnel curve of '{}' is fitted to within {:.1g} only",
                                         material_->name, metal.name, curve.error));

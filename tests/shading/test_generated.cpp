@@ -1,4 +1,5 @@
 // The generated code as a text: what stands in kernels/, what is shared, what is folded.
+#include "host/base/error.h"
 #include "host/reference/spectral.h"
 #include "host/scene/metal_table.h"
 #include "host/shading/code_value.h"
@@ -135,15 +136,28 @@ TEST(MetalCurve, IsTheReferencesSpectralSumToAMillionth) {
     }
 }
 
-TEST(MetalCurve, SaysWhenASpectrumCannotBeFitted) {
-    // An index below 1 that hardly absorbs reflects totally beyond its critical angle: a kink no polynomial follows.
+Frame frame_of_metal(std::vector<ComplexIndex> samples) {
     Frame frame = default_frame();
     frame.materials[0].base().specular = SpecularModel::blinn_phong_spectral;
     frame.materials[0].base().f0 = BoundParameter{};
-    frame.materials[0].base().metal = {"odd.txt", {{300.0, 0.5, 0.0}, {800.0, 0.5, 0.0}}};
-    const MaterialsSource source = materials_source(frame);
+    frame.materials[0].base().metal = {"odd.txt", std::move(samples)};
+    return frame;
+}
+
+TEST(MetalCurve, RefusesASpectrumThatNoPolynomialFollows) {
+    // An index below 1 that does not absorb reflects totally beyond its critical angle.
+    EXPECT_THAT(
+        [] {
+            (void)materials_source(frame_of_metal({{300.0, 0.5, 0.0}, {800.0, 0.5, 0.0}}));
+        },
+        testing::ThrowsMessage<UsageError>(HasSubstr("odd.txt")));
+}
+
+TEST(MetalCurve, WarnsWhereTheFitIsNotExact) {
+    const MaterialsSource source = materials_source(frame_of_metal({{300.0, 0.9, 0.06}, {800.0, 0.9, 0.06}}));
     ASSERT_EQ(source.warnings.size(), 1U);
     EXPECT_THAT(source.warnings[0], HasSubstr("odd.txt"));
+    EXPECT_TRUE(materials_source(frame_of_metal({{300.0, 0.2, 3.0}, {800.0, 0.2, 5.0}})).warnings.empty());
 }
 
 } // namespace
