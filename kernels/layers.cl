@@ -83,9 +83,9 @@ static inline real transmittance_approximated(real absorption, real path) {
     return larger(fma(-absorption, path, splat(1.0f)), splat(0.0f));
 }
 
-// alpha d (1/NL' + 1/NE') as an exponent of 2; A = exp2_clamped(-depth).
-static inline real optical_depth(real absorption, real path) {
-    return 1.44269504f * absorption * path;
+// -alpha d (1/NL' + 1/NE') as an exponent of 2: A = 2^exponent.
+static inline real absorption_exponent(real absorption, real path) {
+    return -1.44269504f * absorption * path;
 }
 
 static inline rgb medium_below_rgb(rgb s, rgb above) {
@@ -128,13 +128,13 @@ static inline rgb transmittance_approximated_rgb(rgb absorption, real path) {
                     transmittance_approximated(absorption.b, path));
 }
 
-static inline rgb optical_depth_rgb(rgb absorption, rgb path) {
-    return make_rgb(optical_depth(absorption.r, path.r), optical_depth(absorption.g, path.g),
-                    optical_depth(absorption.b, path.b));
+static inline rgb absorption_exponent_rgb(rgb absorption, rgb path) {
+    return make_rgb(absorption_exponent(absorption.r, path.r), absorption_exponent(absorption.g, path.g),
+                    absorption_exponent(absorption.b, path.b));
 }
 
-static inline rgb transmittance_rgb(rgb depth) {
-    return make_rgb(exp2_clamped(-depth.r), exp2_clamped(-depth.g), exp2_clamped(-depth.b));
+static inline rgb exp2_clamped_rgb(rgb x) {
+    return make_rgb(exp2_clamped(x.r), exp2_clamped(x.g), exp2_clamped(x.b));
 }
 
 #endif

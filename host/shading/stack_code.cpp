@@ -247,8 +247,11 @@ void StackCode::add_lobe(std::size_t k, const Interface& interface) {
     } else if (interface.gain.is(0.0)) {
         add_sum(false, name("specular", k), share, product(colour, interface.r));
     } else if (interface.r.grey && interface.gain.grey) {
-        const Value fresnel = sum(interface.r, product(interface.gain, interface.weight));
-        add_sum(false, name("specular", k), product(share, fresnel), colour);
+        // A known scale goes into both terms of F = r + gain weight.
+        const Value scale = colour.known && colour.grey ? colour : Value::of(1.0);
+        const Value fresnel =
+            sum(product(scale, interface.r), product(product(scale, interface.gain), interface.weight));
+        add_sum(false, name("specular", k), product(share, fresnel), scale.is(1.0) ? colour : Value::of(1.0));
     } else {
         const Value named = loop_.name(name("share", k), share);
         add_sum(false, name("specular", k), named, product(colour, interface.r));
@@ -312,7 +315,7 @@ void StackCode::absorb(std::size_t k) {
     }
     const Value up = setup_.name(name("path_up", k), call("refracted_path", "s.ne", {below_}));
     const Value path = loop_.name(name("path", k), sum(call("refracted_path", "i.nl", {below_}), up));
-    depth_ = loop_.name(name("depth", k), sum(depth_, call("optical_depth", {absorption, path})));
+    depth_ = loop_.name(name("exponent", k), sum(depth_, call("absorption_exponent", {absorption, path})));
     deeper_ = true;
 }
 
@@ -321,8 +324,7 @@ std::string StackCode::light_here() {
     Value from = light_;
     if (deeper_) {
         from = Value::rgb("e0");
-        transmitted =
-            depth_.grey ? Value::real(fmt::format("exp2_clamped(-{})", depth_.text)) : call("transmittance", {depth_});
+        transmitted = call("exp2_clamped", {depth_});
     }
     if (!transmitted.is(1.0)) {
         light_ = loop_.name(fmt::format("e{}", ++tints_), product(from, transmitted));

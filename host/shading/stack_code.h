@@ -111,7 +111,7 @@ class StackCode {
     Passage diffuse_;
     Value light_ = Value::rgb("e0"); ///< irradiance in the medium above
     Value pending_ = Value::of(1.0); ///< transmittance not yet applied to it (approximated absorption)
-    Value depth_ = Value::of(0.0);   ///< optical depth down to here (original absorption)
+    Value depth_ = Value::of(0.0);   ///< exponent of 2 of the transmittance down to here (original absorption)
     bool deeper_ = false;            ///< depth_ has grown since light_ was named
     int tints_ = 0;
     std::string tangents_; ///< text of the tangent frame of the layer at hand

@@ -97,7 +97,9 @@ TEST(GeneratedSource, ConstantsAreFoldedAndUnusedPartsLeftOut) {
     material.base().shininess = constant(512.0);
     const std::string text = materials_source(frame).text;
     EXPECT_THAT(text, HasSubstr("cosine_power(i, splat(256.0f))"));
-    EXPECT_THAT(text, HasSubstr(float_literal(folded_normaliser_linear(512.0))));
+    // norm (F0 + (1 - F0) weight), the norm multiplied in
+    EXPECT_THAT(text, HasSubstr(float_literal(0.04 * folded_normaliser_linear(512.0)) + " + " +
+                                float_literal(0.96 * folded_normaliser_linear(512.0)) + " * weight"));
     EXPECT_THAT(text, Not(HasSubstr("normaliser_linear")));
     EXPECT_THAT(text, Not(HasSubstr("absorption")));
 }
