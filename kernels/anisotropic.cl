@@ -16,7 +16,7 @@ typedef struct {
 // Duff et al., "Building an Orthonormal Basis, Revisited" (JCGT 2017): the first axis of a frame around n.
 static inline vec3 any_tangent(vec3 n) {
     const real sign = choose(AS_INTEGER(n.z) < (integer)(0), splat(-1.0f), splat(1.0f));
-    const real a = -1.0f / (sign + n.z);
+    const real a = -inverse(sign + n.z);
     return make_vec3(fma(sign * n.x * n.x, a, splat(1.0f)), sign * n.x * n.y * a, -sign * n.x);
 }
 
@@ -49,8 +49,8 @@ static inline real anisotropic_half_exponent(incidence i, tangent_frame f, real 
 static inline real normaliser_anisotropic(real shininess_u, real shininess_v) {
     const real a = shininess_u + 2.0f;
     const real b = shininess_v + 2.0f;
-    const real w = 0.25f * (exp2_clamped(-0.5f * a) + 2.0f * exp2_clamped(-a * b / (a + b)) + exp2_clamped(-0.5f * b));
-    return sqrt(a * b) * (0.125f * INV_PI_F) / (1.0f - w);
+    const real w = 0.25f * (exp2_clamped(-0.5f * a) + 2.0f * exp2_clamped(-a * b * inverse(a + b)) + exp2_clamped(-0.5f * b));
+    return square_root(a * b) * (0.125f * INV_PI_F) * inverse(1.0f - w);
 }
 
 #endif
