@@ -211,8 +211,9 @@ std::string preset_stage_materials(std::string_view preset) {
 }
 
 std::vector<Light> preset_stage_lights() {
-    // Directions on a spiral cover the sphere evenly (Swinbank and Purser, "Fibonacci grids", 2006): 6400 lie 2.5 degrees
-    // apart. The sharpest preset (shininess 2048) has highlights 6 degrees wide, narrower towards grazing angles.
+    // Directions on a spiral cover the sphere evenly (Swinbank and Purser, "Fibonacci grids", 2006): 6400 lie 2.5
+    // degrees apart. The sharpest preset (shininess 2048) has highlights 6 degrees wide, narrower towards grazing
+    // angles.
     constexpr int count = 6400;
     const double golden_angle = glm::pi<double>() * (3.0 - std::sqrt(5.0));
     std::vector<Light> lights;
