@@ -24,7 +24,7 @@ void make_folder(const std::filesystem::path& folder) {
 
 std::string options_text(const Shader& shader, const Frame& frame) {
     std::string text = fmt::format("kernel   {}\nbuild    shade.cl with -cl-std=CL1.2 {}\n", kernel_key(frame),
-                                   shader.build_options(frame));
+                                   shader.build_options());
     for (const BoundMaterial& material : frame.materials) {
         text += fmt::format("material {}: {}\n", material.name, model_key(material));
     }

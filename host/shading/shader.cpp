@@ -204,14 +204,14 @@ SourceSet Shader::sources(const Frame& frame) const {
     return sources;
 }
 
-std::string Shader::build_options(const Frame& /*frame*/) const {
+std::string Shader::build_options() const {
     return fmt::format("-DLANES={}", lanes_);
 }
 
 const Program& Shader::program_for(const Frame& frame) {
     const std::string layout = frame_layout_source(frame, options_.aovs);
     const MaterialsSource materials = materials_source(frame);
-    const std::string options = build_options(frame);
+    const std::string options = build_options();
     const std::string key = layout + materials.text + options;
     auto found = programs_.find(key);
     if (found == programs_.end()) {

@@ -100,7 +100,7 @@ class Shader {
     /// Every file of the program for a frame, the generated ones among them, for people to read from shade.cl on, and
     /// the options of its build.
     [[nodiscard]] SourceSet sources(const Frame& frame) const;
-    [[nodiscard]] std::string build_options(const Frame& frame) const;
+    [[nodiscard]] std::string build_options() const;
     [[nodiscard]] int lanes() const { return lanes_; }
 
   private:
