@@ -20,10 +20,9 @@ std::string lobes_key(const std::vector<BoundLayer>& layers) {
     if (std::all_of(layers.begin(), layers.end(), same)) {
         return std::string(name_of(layers.front().specular));
     }
-    std::vector<std::string_view> names;
-    for (const BoundLayer& layer : layers) {
-        names.push_back(name_of(layer.specular));
-    }
+    std::vector<std::string_view> names(layers.size());
+    std::transform(layers.begin(), layers.end(), names.begin(),
+                   [](const BoundLayer& layer) { return name_of(layer.specular); });
     return fmt::format("{}", fmt::join(names, "+"));
 }
 
