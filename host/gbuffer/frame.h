@@ -54,11 +54,49 @@
 //     Absorption: the specular part of layer k and the diffuse part (k = K-1) are multiplied by prod_{j<k} A_j, A_j by
 //     section 5 with layer j's absorption and, for `original`, angles refracted by m_j.
 //     Radiance = (diffuse f_cos + specular f_cos) E_0.
-// 10. Output: (sum over lights + emission) * c, alpha = c. AOV diffuse and specular: their sums * c without emission;
-//     one AOV per light: its share * c. A result that does not fit in a float is 0 and counted as non-finite.
+// 10. Output: (sum over lights + environment + emission) * c, alpha = c. AOV diffuse and specular: their sums * c,
+// lights
+//     and environment, without emission; one AOV per light and one for the environment: its share * c. A result that
+//     does not fit in a float is 0 and counted as non-finite.
+// 11. Environment (models.md sections 6, 7, 9; host/environment/filter_layout.h). x = NE = max(N.E, 1e-4) throughout.
+//     L(R, n) = trilinear in the grids of the levels: p = (octahedral (x, y) of M R + 1)/2 * cells, cell min(floor p,
+//     cells - 1), bilinear in what is left; between levels floor(mip) and floor(mip) + 1 linear in mip =
+//     clamp(log2(8192 / max(n, 1)), 0, 13). M = world_to_image, R = 2 x N - E (of any length). All times `intensity`.
+//     scale(n), bias(n): bilinear in the ambient table at (128 x, 64 log2(n+1)/13), n at most 8191; the table of the
+//     normaliser that the lobe has in rule 9: linear for blinn_phong and blinn_phong_spectral with fresnel = constant,
+//     else exact. a = scale + bias.
+//     Specular of layer k: S_k prod_{j<k} T_j As_j. S_k = (r_k scale + bias) L where outer; inside r_k a L with fresnel
+//     = constant and F_k(x) a L with exact, F_k(x) being rule 9's at c_{k-1} for c = x.
+//     T_j = (1 - F_j(x))(1 - r_j), F_j as in rule 9 with x in place of c (constant; inside: F_j = r_j), (1 - F_j(x))^2
+//     (exact). transmittance_ibl = none: where outer, F_j(x) counts as 0 (constant: T_j = 1 - r_j; exact: T_j = 1).
+//     A layer without interface: S = 0, T = 1.
+//     Anisotropic layers: scale and bias at n = sqrt((n_u+2)(n_v+2)) - 2, exact normaliser. In place of L: five lookups
+//     along the axis of the smaller exponent. With w = 1/max(min(n_u, n_v), 1), v = max(1/max(max(n_u, n_v), 1), w/8),
+//     d = sqrt(max(w - v, 0)) and t the unit axis of the smaller exponent (T where n_u <= n_v, else B): L = sum_q w_q
+//     L(R_q, 1/v), H_q = N + z_q d t, R_q = 2 (H_q.E)/(H_q.H_q) H_q - E, nodes z = 0, +-1.3556262, +-2.8569700, weights
+//     8/15, 0.22207592, 0.011257411 (Gauss-Hermite: variances along t add up to w).
+//     Spectral layers where outer: in place of r_k scale + bias the metal's own table over the same vertices, Norm(n)
+//     int NH^n min(1, NL/NE) R_k(EH) dw (per channel, bilinear). Inside (constant): r_k a; exact, inside: F_k(x) a.
+//     Diffuse of the base: albedo * weight * E/pi. weight = prod_{j<K-1} Td_j Ad_j times the base's own. Td_j:
+//     constant: outer 1 - F_j(x), inside 1 - r_j U_j (rule 9); exact: (1 - F_j(x))^2; transmittance_ibl = none: 1 where
+//     outer. The base's own: constant: 1 - r_{K-1} U_{K-1}, times 20/21 if it is outer and blinn_phong_exact; exact: 1
+//     - F_{K-1}(x). A base without interface: 1. E/pi: sh2: e = e0 + e1, e0 = L_00 Y_00, e1 = 2/3 sum_m L_1m Y_1m(M N);
+//     sh3: + e2 = 1/4 sum_m L_2m Y_2m(M N); irradiance_map: bilinear in its grid at M N. Lambert: max(0, e). Oren-Nayar
+//     (every model of it, with n its shininess): max(0, D e0 + S (e - e0)), D and S of section 9 by `ambient`; order1:
+//     max(0, D e0 + S (e - e0 - e1) + 3/2 a_N e1 + a_T (t.v)), v the SH linear vector (t.v = sum_m L_1m Y_1m(M t)), t =
+//     (E - (N.E) N) normalised (0 where shorter than 1e-6, N.E unclamped). Times intensity; `full` takes rho = the
+//     albedo per channel. As_j, Ad_j: the forms of section 7 by absorption_ibl with a' = layer j's absorption and x;
+//     absorption none: 1. absorption = original: a' = (1 - exp(-2 alpha d))/2 for deck and clamped, alpha d itself for
+//     exponential; approximated: a' itself for all three.
+// 12. Background ([output] background): where rule 3 finds no surface, and under a coverage below 1, the environment
+//     along the pixel's ray d = normalised direction: result = rule 10's + (1 - c) L(d), alpha = 1; L(d) = the picture
+//     itself, bilinear between texel centres (u wraps, poles as in filter_layout.h, SOURCE), times intensity. Pixels of
+//     rule 1 stay 0. AOVs have no background.
 #pragma once
 
 #include "host/base/plane_slab.h"
+#include "host/environment/filtered_set.h"
+#include "host/environment/lat_long.h"
 #include "host/gbuffer/image_layout.h"
 #include "host/scene/scene.h"
 
@@ -66,6 +104,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -122,10 +162,13 @@ struct BoundMaterial {
     std::vector<CryptomatteClaim> cryptomatte;
     FresnelModel fresnel = FresnelModel::constant;
     AbsorptionModel absorption = AbsorptionModel::none; ///< none where no layer absorbs
-    std::vector<BoundLayer> layers = {BoundLayer{}};    ///< top first, never empty
-    DiffuseModel diffuse = DiffuseModel::none;          ///< of the base
+    AmbientAbsorption absorption_ibl = AmbientAbsorption::deck;
+    AmbientTransmittance transmittance_ibl = AmbientTransmittance::fresnel;
+    std::vector<BoundLayer> layers = {BoundLayer{}}; ///< top first, never empty
+    DiffuseModel diffuse = DiffuseModel::none;       ///< of the base
     BoundParameter albedo;
     BoundParameter diffuse_shininess; ///< of the Oren-Nayar models
+    AmbientDiffuse ambient = AmbientDiffuse::precise;
 
     [[nodiscard]] BoundLayer& base() { return layers.back(); }
     [[nodiscard]] const BoundLayer& base() const { return layers.back(); }
@@ -151,6 +194,23 @@ struct View {
     glm::dvec3 direction{0.0}, direction_dx{0.0}, direction_dy{0.0};
 };
 
+/// Light from all around, as rule 11 has it.
+struct BoundEnvironment {
+    glm::dmat3 world_to_image{1.0}; ///< a rotation, perhaps with axes renamed: M
+    glm::dvec3 intensity{1.0};
+    AmbientSource diffuse = AmbientSource::sh2;
+    bool background = false; ///< rule 12; needs the view's rays and `image`
+    /// The picture, cleaned. Null if the scene names a set that was pre-filtered before: then both evaluators take
+    /// `maps`.
+    std::shared_ptr<const LatLong> image;
+    /// What kernels read. The reference does not look at it where there is an `image`: it filters by itself.
+    std::shared_ptr<const FilteredSet> maps;
+};
+
+/// M of an environment whose picture has row 0 at the given axis of the world, turned counter-clockwise about it by
+/// `rotation` radians: what stood at azimuth a stands at a + rotation (interface, "Scene file").
+[[nodiscard]] glm::dmat3 world_to_image(UpAxis up, double rotation);
+
 /// Everything needed to shade one picture. Lights are in world space (the default scene's already turned).
 struct Frame {
     std::string file; ///< for messages
@@ -165,6 +225,7 @@ struct Frame {
     DepthKind depth_kind = DepthKind::planar;
     View view;
     std::vector<Light> lights;
+    std::optional<BoundEnvironment> environment;
     std::vector<BoundMaterial> materials; ///< never empty; the first takes pixels no other claims
     BoundParameter emission;              ///< used only if has_emission
     bool has_emission = false;
@@ -177,6 +238,7 @@ struct AovSelection {
     bool diffuse = false;
     bool specular = false;
     bool lights = false;
+    bool environment = false; ///< only of frames with an environment
 };
 
 /// What an evaluator counted.
@@ -187,7 +249,8 @@ struct PixelCounts {
     std::uint64_t no_tangent = 0; ///< rule 6: pixels of anisotropic materials with a tangent missing or parallel to N
 };
 
-/// Names of the output planes in order: R, G, B, A, then diffuse.R, ..., specular.R, ..., light.<name>.R, ...
+/// Names of the output planes in order: R, G, B, A, then diffuse.R, ..., specular.R, ..., light.<name>.R, ...,
+/// environment.R, ...
 [[nodiscard]] std::vector<std::string> output_plane_names(const Frame& frame, const AovSelection& aovs);
 
 } // namespace clshade

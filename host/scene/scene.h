@@ -90,12 +90,50 @@ enum class AbsorptionModel {
     none,
 };
 
+/// What a stack's media take from an environment's light (models.md section 7).
+enum class AmbientAbsorption {
+    deck,        ///< diffuse max(0, 1 - a' (2 + 1/NE)), specular max(0, 1 - 2 a'/NE)
+    clamped,     ///< diffuse with the clamp inside the integral; specular as the deck
+    exponential, ///< 2 E_3(a') exp(-a'/NE) and exp(-2 a'/NE)
+};
+
+/// Whether an environment's light for lower layers is lessened by the interface that it meets from air.
+enum class AmbientTransmittance {
+    fresnel, ///< T = 1 - F(n1; N.E)
+    none,    ///< T = 1: the deck's formulas to the letter
+};
+
+/// How Oren-Nayar models take an environment's light (models.md section 9).
+enum class AmbientDiffuse {
+    precise,  ///< 9.1: closed form of D, S of 9.4
+    fit,      ///< 9.1: its polynomial
+    coarse,   ///< 9.3
+    coarsest, ///< 9.3: one reciprocal
+    full,     ///< 9.2: D of the full model, which depends on the albedo
+    order1,   ///< 9.5: D as `precise`, exact order-1 terms in place of S
+};
+
+/// Where an environment's up is: the axis of the world that row 0 of the picture lies at.
+enum class UpAxis { z, y };
+
+/// What diffuse surfaces see of the environment.
+enum class AmbientSource {
+    sh2,            ///< SH bands 0 and 1
+    sh3,            ///< SH bands 0 to 2
+    irradiance_map, ///< the full irradiance
+};
+
 /// Names as written in a scene file, in the order of the enumerations.
 [[nodiscard]] std::string_view name_of(SpecularModel model);
 [[nodiscard]] std::string_view name_of(FresnelModel model);
 [[nodiscard]] std::string_view name_of(AbsorptionModel model);
 [[nodiscard]] std::string_view name_of(DiffuseModel model);
 [[nodiscard]] std::string_view name_of(Conversion convert);
+[[nodiscard]] std::string_view name_of(AmbientAbsorption absorption);
+[[nodiscard]] std::string_view name_of(AmbientTransmittance transmittance);
+[[nodiscard]] std::string_view name_of(AmbientDiffuse ambient);
+[[nodiscard]] std::string_view name_of(UpAxis up);
+[[nodiscard]] std::string_view name_of(AmbientSource source);
 
 /// Complex index of refraction n + i k at a wavelength.
 struct ComplexIndex {
@@ -124,8 +162,9 @@ struct Specular {
 
 struct Diffuse {
     DiffuseModel model = DiffuseModel::lambert;
-    Parameter albedo = Parameter::of(0.5); ///< 0..1 per channel
-    std::optional<Parameter> shininess;    ///< absent: the specular shininess of the base
+    Parameter albedo = Parameter::of(0.5);            ///< 0..1 per channel
+    std::optional<Parameter> shininess;               ///< absent: the specular shininess of the base
+    AmbientDiffuse ambient = AmbientDiffuse::precise; ///< key `ambient`; of the Oren-Nayar models
 };
 
 /// One layer of a stack: the lobe of its upper interface, and what its medium takes from light passing through.
@@ -145,6 +184,8 @@ struct Material {
     SourceLocation names_where;
     FresnelModel fresnel = FresnelModel::constant;
     AbsorptionModel absorption_model = AbsorptionModel::approximated;
+    AmbientAbsorption absorption_ibl = AmbientAbsorption::deck;
+    AmbientTransmittance transmittance_ibl = AmbientTransmittance::fresnel;
     std::vector<Layer> layers = {Layer{}};
     Diffuse diffuse;
     SourceLocation where;
@@ -168,6 +209,20 @@ struct Light {
     glm::dvec3 power{1.0};
     double cone_angle = 0.0;    ///< spot: half-angle from the axis in radians, (0, pi]; no light beyond
     double cone_softness = 0.0; ///< 0..1: smoothstep (over the angle) from cone_angle (1 - softness) to cone_angle
+    SourceLocation where;
+};
+
+/// Light from all around: [environment].
+struct Environment {
+    /// As written, relative to the scene file: a lat-long .hdr or .exr, or a folder that `clshade prefilter` wrote.
+    /// Empty: the built-in studio.
+    std::string image;
+    glm::dvec3 intensity{1.0}; ///< 0 or more; multiplies the picture
+    std::optional<UpAxis> up;  ///< absent: what the picture says of itself, else z
+    double rotation = 0.0;     ///< radians, counter-clockwise about the up axis
+    AmbientSource diffuse = AmbientSource::sh2;
+    /// The studio of the default scene: its frame is the camera's (+X right, +Y up, looks along -Z).
+    bool in_camera_space = false;
     SourceLocation where;
 };
 
@@ -216,6 +271,8 @@ struct Scene {
     std::optional<Camera> camera;
     GBufferSettings gbuffer;
     std::vector<Light> lights;
+    std::optional<Environment> environment;
+    bool background = false;         ///< [output] background: the environment stands behind the objects; needs one
     std::vector<Material> materials; ///< never empty; the first is `default`
     /// The file has no [material.default] and neither --set nor --model touch it: all flags of `automatic` are set.
     /// Where only --set or --model touch it, this is false and `automatic` keeps the flags of what they left alone.
@@ -225,8 +282,8 @@ struct Scene {
     bool emission_mapped = false; ///< [gbuffer] names the emission role
 };
 
-/// The scene used without --scene: automatic material; key over the camera's left shoulder, fill and rim lights in
-/// camera space that stand in for the studio environment until image-based light exists.
+/// The scene used without --scene: automatic material; one distant key light over the camera's left shoulder and the
+/// built-in studio around, both in camera space.
 [[nodiscard]] Scene default_scene();
 
 } // namespace clshade

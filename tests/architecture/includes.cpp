@@ -20,15 +20,19 @@ using Names = std::set<std::string>;
 const std::map<std::string, Names> allowed{
     {"base", {}},
     {"scene", {"base"}},
-    {"gbuffer", {"base", "scene"}},
-    {"reference", {"base", "scene", "gbuffer"}},
-    {"demo", {"base", "scene", "gbuffer"}},
+    {"environment", {"base", "scene"}},
+    {"gbuffer", {"base", "scene", "environment"}},
+    {"reference", {"base", "scene", "environment", "gbuffer"}},
+    {"demo", {"base", "scene", "environment", "gbuffer"}},
     {"device", {"base"}},
-    {"images", {"base", "scene", "gbuffer"}},
-    {"shading", {"base", "scene", "gbuffer", "device", "kernels"}},
-    {"bench", {"base", "scene", "gbuffer", "device", "shading", "reference"}},
+    {"prefilter", {"base", "scene", "environment", "device", "kernels"}},
+    {"images", {"base", "scene", "environment", "gbuffer"}},
+    {"shading", {"base", "scene", "environment", "gbuffer", "device", "prefilter", "kernels"}},
+    {"bench", {"base", "scene", "environment", "gbuffer", "device", "prefilter", "shading", "reference"}},
     {"kernels", {}},
-    {"cli", {"base", "scene", "gbuffer", "reference", "demo", "device", "images", "shading", "bench"}},
+    {"cli",
+     {"base", "scene", "environment", "gbuffer", "reference", "demo", "device", "prefilter", "images", "shading",
+      "bench"}},
 };
 
 // Libraries that only some components may see.
