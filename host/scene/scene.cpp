@@ -66,6 +66,56 @@ std::string_view name_of(DiffuseModel model) {
     return {};
 }
 
+std::string_view name_of(AmbientAbsorption absorption) {
+    switch (absorption) {
+    case AmbientAbsorption::deck:
+        return "deck";
+    case AmbientAbsorption::clamped:
+        return "clamped";
+    case AmbientAbsorption::exponential:
+        return "exponential";
+    }
+    return {};
+}
+
+std::string_view name_of(AmbientTransmittance transmittance) {
+    return transmittance == AmbientTransmittance::fresnel ? "fresnel" : "none";
+}
+
+std::string_view name_of(AmbientDiffuse ambient) {
+    switch (ambient) {
+    case AmbientDiffuse::precise:
+        return "precise";
+    case AmbientDiffuse::fit:
+        return "fit";
+    case AmbientDiffuse::coarse:
+        return "coarse";
+    case AmbientDiffuse::coarsest:
+        return "coarsest";
+    case AmbientDiffuse::full:
+        return "full";
+    case AmbientDiffuse::order1:
+        return "order1";
+    }
+    return {};
+}
+
+std::string_view name_of(UpAxis up) {
+    return up == UpAxis::z ? "z" : "y";
+}
+
+std::string_view name_of(AmbientSource source) {
+    switch (source) {
+    case AmbientSource::sh2:
+        return "sh2";
+    case AmbientSource::sh3:
+        return "sh3";
+    case AmbientSource::irradiance_map:
+        return "irradiance_map";
+    }
+    return {};
+}
+
 std::string_view name_of(Conversion convert) {
     switch (convert) {
     case Conversion::none:
@@ -80,6 +130,13 @@ std::string_view name_of(Conversion convert) {
         return "index_of_refraction";
     }
     return {};
+}
+
+std::filesystem::path environment_path(const Scene& scene) {
+    if (!scene.environment || scene.environment->image.empty()) {
+        return {};
+    }
+    return std::filesystem::path(scene.file).parent_path() / scene.environment->image;
 }
 
 } // namespace clshade

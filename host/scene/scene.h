@@ -4,7 +4,9 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -123,7 +125,31 @@ enum class AmbientSource {
     irradiance_map, ///< the full irradiance
 };
 
-/// Names as written in a scene file, in the order of the enumerations.
+/// Every value there is, in the order of the enumerations.
+inline constexpr std::array all_specular_models{
+    SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact,
+    SpecularModel::blinn_phong_anisotropic, SpecularModel::blinn_phong_spectral};
+inline constexpr std::array all_diffuse_models{DiffuseModel::none,
+                                               DiffuseModel::lambert,
+                                               DiffuseModel::oren_nayar,
+                                               DiffuseModel::oren_nayar_full,
+                                               DiffuseModel::oren_nayar_qualitative,
+                                               DiffuseModel::oren_nayar_simplified_1,
+                                               DiffuseModel::oren_nayar_simplified_2,
+                                               DiffuseModel::oren_nayar_shininess};
+inline constexpr std::array all_fresnel_models{FresnelModel::constant, FresnelModel::exact};
+inline constexpr std::array all_absorption_models{AbsorptionModel::approximated, AbsorptionModel::original,
+                                                  AbsorptionModel::none};
+inline constexpr std::array all_ambient_absorptions{AmbientAbsorption::deck, AmbientAbsorption::clamped,
+                                                    AmbientAbsorption::exponential};
+inline constexpr std::array all_ambient_transmittances{AmbientTransmittance::fresnel, AmbientTransmittance::none};
+inline constexpr std::array all_ambient_diffuses{AmbientDiffuse::precise, AmbientDiffuse::fit,
+                                                 AmbientDiffuse::coarse,  AmbientDiffuse::coarsest,
+                                                 AmbientDiffuse::full,    AmbientDiffuse::order1};
+inline constexpr std::array all_up_axes{UpAxis::z, UpAxis::y};
+inline constexpr std::array all_ambient_sources{AmbientSource::sh2, AmbientSource::sh3, AmbientSource::irradiance_map};
+
+/// Names as written in a scene file.
 [[nodiscard]] std::string_view name_of(SpecularModel model);
 [[nodiscard]] std::string_view name_of(FresnelModel model);
 [[nodiscard]] std::string_view name_of(AbsorptionModel model);
@@ -281,6 +307,10 @@ struct Scene {
     AutomaticParameters automatic;
     bool emission_mapped = false; ///< [gbuffer] names the emission role
 };
+
+/// Where the environment's picture or set lies: `image` from the scene file's folder, as paths of metal tables are.
+/// Empty without an environment and for the built-in studio.
+[[nodiscard]] std::filesystem::path environment_path(const Scene& scene);
 
 /// The scene used without --scene: automatic material; one distant key light over the camera's left shoulder and the
 /// built-in studio around, both in camera space.

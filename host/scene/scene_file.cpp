@@ -1,6 +1,7 @@
 #include "host/scene/scene_file.h"
 
 #include "host/scene/scene_camera.h"
+#include "host/scene/scene_environment.h"
 #include "host/scene/scene_lights.h"
 #include "host/scene/scene_materials.h"
 #include "host/scene/scene_overrides.h"
@@ -20,31 +21,21 @@ namespace {
 
 constexpr std::array<std::string_view, 8> scene_keys{"version",     "units",  "camera", "gbuffer",
                                                      "environment", "output", "light",  "material"};
-constexpr std::array<std::string_view, 1> output_keys{"background"};
 
 /// MiB. Far beyond any scene written by hand or by a script; keeps --scene /dev/zero from eating the memory.
 constexpr std::size_t largest_file = 16;
 
-/// Key over the left shoulder, slightly warm; a weak cool fill from the right; a rim light from behind and above.
-/// Levels: a grey (0.5) surface that faces the key comes out at about 0.5. Directions are in camera space.
+/// Key over the left shoulder, slightly warm, and the built-in studio. Levels: the studio's mean radiance is near 0.5,
+/// so that a grey (0.5) surface that faces the key takes about 0.25 from the one and 0.3 from the other. The direction
+/// is in camera space.
 constexpr std::string_view default_scene_text = R"(version = 1
 [[light]]
 name = "key"
 type = "distant"
 direction = [0.45, -0.55, -0.70]
-irradiance = 3.0
+irradiance = 2.0
 color = [1.0, 0.96, 0.90]
-[[light]]
-name = "fill"
-type = "distant"
-direction = [-0.80, -0.15, -0.58]
-irradiance = 0.7
-color = [0.80, 0.90, 1.0]
-[[light]]
-name = "rim"
-type = "distant"
-direction = [-0.35, -0.60, 0.72]
-irradiance = 1.4
+[environment]
 )";
 
 void check_version(const TomlTable& root, const std::string& file) {
@@ -59,15 +50,6 @@ void check_version(const TomlTable& root, const std::string& file) {
     if (*number != 1) {
         fail(version->value.where,
              fmt::format("scene version {} is unknown to this clshade; write version = 1", *number));
-    }
-}
-
-void refuse_background(const TomlEntry& output) {
-    const TableReader table(output.value, "[output]", output_keys);
-    if (const TomlEntry* background = table.find("background")) {
-        if (as_bool(background->value, "background")) {
-            fail_not_built(background->where, "'background' of [output]", "remove the key or set it to false");
-        }
     }
 }
 
@@ -114,14 +96,14 @@ Scene read_tree(TomlTable root, const std::string& file, std::span<const std::st
     if (const TomlEntry* units = table.find("units")) {
         (void)as_text(units->value, "units"); // a note for people: nothing in shading depends on it
     }
-    if (const TomlEntry* environment = table.find("environment")) {
-        fail_not_built(environment->where, "[environment]", "remove the table and light the scene with [[light]]");
-    }
-    if (const TomlEntry* output = table.find("output")) {
-        refuse_background(*output);
-    }
     Scene scene;
     scene.file = file;
+    if (const TomlEntry* environment = table.find("environment")) {
+        scene.environment = read_environment(*environment);
+    }
+    if (const TomlEntry* output = table.find("output")) {
+        scene.background = read_background(*output, scene.environment.has_value());
+    }
     if (const TomlEntry* camera = table.find("camera")) {
         scene.camera = read_camera(*camera);
     }
@@ -132,9 +114,9 @@ Scene read_tree(TomlTable root, const std::string& file, std::span<const std::st
     if (const TomlEntry* lights = table.find("light")) {
         scene.lights = read_lights(lights->value);
     }
-    if (scene.lights.empty() && !scene.emission_mapped) {
-        fail({file, 1, 1}, "the scene has no light and would be black; add a [[light]], or map the emission role in "
-                           "[gbuffer]");
+    if (scene.lights.empty() && !scene.environment && !scene.emission_mapped) {
+        fail({file, 1, 1}, "the scene has no light and would be black; add a [[light]] or an [environment], or map the "
+                           "emission role in [gbuffer]");
     }
     read_materials(table.find("material"), default_written, scene);
     return scene;
@@ -158,6 +140,11 @@ Scene default_scene(std::span<const std::string> overrides, std::string_view mod
     for (Light& light : scene.lights) {
         light.in_camera_space = true;
         light.where.file.clear();
+    }
+    if (scene.environment) {
+        scene.environment->where.file.clear();
+        // A picture, or a studio that is told where up is, stands in the world.
+        scene.environment->in_camera_space = scene.environment->image.empty() && !scene.environment->up;
     }
     return scene;
 }

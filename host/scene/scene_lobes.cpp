@@ -17,20 +17,7 @@ namespace {
 
 constexpr std::array<std::string_view, 8> specular_keys{"model",       "f0",          "ior",   "shininess",
                                                         "shininess_u", "shininess_v", "metal", "tangent"};
-constexpr std::array<std::string_view, 3> diffuse_keys{"model", "albedo", "shininess"};
-
-constexpr std::array<std::string_view, 5> specular_models{"none", "blinn_phong",
-                                                          "blinn_phong_exact", // order of SpecularModel
-                                                          "blinn_phong_anisotropic", "blinn_phong_spectral"};
-constexpr std::array<std::string_view, 8> diffuse_models{// order of DiffuseModel
-                                                         "none",
-                                                         "lambert",
-                                                         "oren_nayar",
-                                                         "oren_nayar_full",
-                                                         "oren_nayar_qualitative",
-                                                         "oren_nayar_simplified_1",
-                                                         "oren_nayar_simplified_2",
-                                                         "oren_nayar_shininess"};
+constexpr std::array<std::string_view, 4> diffuse_keys{"model", "albedo", "shininess", "ambient"};
 
 /// The specular models that have a parameter. "none" keeps a shininess for the diffuse part of its layer.
 std::vector<std::string_view> models_with(std::string_view key) {
@@ -51,9 +38,9 @@ std::vector<std::string_view> models_with(std::string_view key) {
 class LobeKeys {
   public:
     /// Throws for keys that the model lacks.
-    LobeKeys(const TableReader& table, std::string_view default_model) : table_(&table), model_(default_model) {
+    LobeKeys(const TableReader& table, SpecularModel default_model) : table_(&table), model_(default_model) {
         if (const TomlEntry* model = table.find("model")) {
-            model_ = specular_models.at(as_choice(model->value, "model", specular_models));
+            model_ = as_enum(model->value, "model", all_specular_models);
             model_origin_ = model->origin;
             where_ = model->value.where;
         } else {
@@ -76,35 +63,33 @@ class LobeKeys {
         const TomlEntry* entry = find(key);
         if (entry == nullptr) {
             fail(where_, fmt::format("{} lacks '{}', which {} needs; write for instance {}", table_->title(), key,
-                                     model_, example));
+                                     name_of(model_), example));
         }
         return entry->value;
     }
 
-    [[nodiscard]] SpecularModel model() const {
-        const auto found = std::find(specular_models.begin(), specular_models.end(), model_);
-        return static_cast<SpecularModel>(found - specular_models.begin());
-    }
+    [[nodiscard]] SpecularModel model() const { return model_; }
 
   private:
     [[nodiscard]] bool is_known(std::string_view key) const {
         const std::vector<std::string_view> owners = models_with(key);
-        return std::find(owners.begin(), owners.end(), model_) != owners.end();
+        return std::find(owners.begin(), owners.end(), name_of(model_)) != owners.end();
     }
 
     [[noreturn]] void fail_unknown(const TomlEntry& entry) const {
-        if (model_ == "blinn_phong_anisotropic" && entry.key == "shininess") {
+        if (model_ == SpecularModel::blinn_phong_anisotropic && entry.key == "shininess") {
             fail(entry.where, fmt::format("{}: blinn_phong_anisotropic has two exponents; write 'shininess_u' (along "
                                           "the tangent) and 'shininess_v' (across it) in place of 'shininess'",
                                           table_->title()));
         }
-        fail(entry.where, fmt::format("{}: '{}' does nothing with model {}; remove it, or choose a model that has it: "
-                                      "{}",
-                                      table_->title(), entry.key, model_, quoted_list(models_with(entry.key))));
+        fail(entry.where,
+             fmt::format("{}: '{}' does nothing with model {}; remove it, or choose a model that has it: "
+                         "{}",
+                         table_->title(), entry.key, name_of(model_), quoted_list(models_with(entry.key))));
     }
 
     const TableReader* table_;
-    std::string_view model_;
+    SpecularModel model_;
     Origin model_origin_ = Origin::preset; ///< of the default model: gives way to nothing
     SourceLocation where_;
 };
@@ -131,12 +116,30 @@ void read_anisotropy(const LobeKeys& keys, Specular& specular) {
     }
 }
 
+/// `ambient` of a model that has none is a mistake, unless a higher rank chose the model.
+void read_ambient(const TableReader& table, Diffuse& diffuse) {
+    const TomlEntry* ambient = table.find("ambient");
+    if (ambient == nullptr) {
+        return;
+    }
+    if (is_rough(diffuse.model)) {
+        diffuse.ambient = as_enum(ambient->value, "ambient", all_ambient_diffuses);
+        return;
+    }
+    const TomlEntry* model = table.find("model");
+    if (model == nullptr || ambient->origin >= model->origin) {
+        fail(ambient->where, fmt::format("{}: 'ambient' does nothing with model {}; remove it, or choose an Oren-Nayar "
+                                         "model such as 'oren_nayar'",
+                                         table.title(), name_of(diffuse.model)));
+    }
+}
+
 } // namespace
 
 SpecularSource read_specular(const TomlEntry& entry, const std::string& title, const std::filesystem::path& folder) {
     const std::string lobe_title = fmt::format("specular of {}", title);
     const TableReader table(entry.value, lobe_title, specular_keys);
-    const LobeKeys keys(table, name_of(SpecularModel::blinn_phong));
+    const LobeKeys keys(table, SpecularModel::blinn_phong);
     SpecularSource source;
     Specular& specular = source.specular;
     specular.model = keys.model();
@@ -163,7 +166,7 @@ DiffuseSource read_diffuse(const TomlEntry& entry, const std::string& title) {
     const TableReader table(entry.value, fmt::format("diffuse of {}", title), diffuse_keys);
     DiffuseSource source;
     if (const TomlEntry* model = table.find("model")) {
-        source.diffuse.model = static_cast<DiffuseModel>(as_choice(model->value, "model", diffuse_models));
+        source.diffuse.model = as_enum(model->value, "model", all_diffuse_models);
     }
     if (const TomlEntry* albedo = table.find("albedo")) {
         source.diffuse.albedo = read_reflectance(albedo->value, "albedo");
@@ -172,6 +175,7 @@ DiffuseSource read_diffuse(const TomlEntry& entry, const std::string& title) {
     if (const TomlEntry* shininess = table.find("shininess")) {
         source.diffuse.shininess = read_shininess(shininess->value, "shininess");
     }
+    read_ambient(table, source.diffuse);
     return source;
 }
 

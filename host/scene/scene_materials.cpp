@@ -13,10 +13,9 @@ namespace clshade {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> material_keys{"ids",   "names",    "preset", "fresnel", "absorption_model",
-                                                        "layer", "specular", "diffuse"};
-constexpr std::array<std::string_view, 2> fresnel_names{"constant", "exact"};                   // of FresnelModel
-constexpr std::array<std::string_view, 3> absorption_names{"approximated", "original", "none"}; // of AbsorptionModel
+constexpr std::array<std::string_view, 10> material_keys{
+    "ids",   "names",    "preset", "fresnel", "absorption_model", "absorption_ibl", "transmittance_ibl",
+    "layer", "specular", "diffuse"};
 
 /// A likely place for `absorption`, which the list of known keys would call a misspelt `absorption_model`.
 void refuse_absorption(const TomlEntry& material, const std::string& title) {
@@ -38,11 +37,16 @@ Material read_material(const TomlEntry& entry, const std::filesystem::path& fold
     material.name = entry.key;
     material.where = entry.where;
     if (const TomlEntry* fresnel = table.find("fresnel")) {
-        material.fresnel = static_cast<FresnelModel>(as_choice(fresnel->value, "fresnel", fresnel_names));
+        material.fresnel = as_enum(fresnel->value, "fresnel", all_fresnel_models);
     }
     if (const TomlEntry* model = table.find("absorption_model")) {
-        material.absorption_model =
-            static_cast<AbsorptionModel>(as_choice(model->value, "absorption_model", absorption_names));
+        material.absorption_model = as_enum(model->value, "absorption_model", all_absorption_models);
+    }
+    if (const TomlEntry* absorption = table.find("absorption_ibl")) {
+        material.absorption_ibl = as_enum(absorption->value, "absorption_ibl", all_ambient_absorptions);
+    }
+    if (const TomlEntry* transmittance = table.find("transmittance_ibl")) {
+        material.transmittance_ibl = as_enum(transmittance->value, "transmittance_ibl", all_ambient_transmittances);
     }
     read_claims(table, material);
     flags = read_stack(table, folder, automatic, material);

@@ -30,10 +30,6 @@ void fail(const SourceLocation& where, const std::string& message) {
     throw UsageError(line);
 }
 
-void fail_not_built(const SourceLocation& where, const std::string& subject, std::string_view advice) {
-    fail(where, fmt::format("{} is not built yet (this version shades with punctual lights); {}", subject, advice));
-}
-
 void fail_type(const TomlValue& value, std::string_view key, std::string_view what) {
     fail(value.where, fmt::format("'{}' is {}; write {}", key, value.kind(), what));
 }

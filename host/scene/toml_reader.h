@@ -5,6 +5,9 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -16,10 +19,6 @@ namespace clshade {
 
 /// Throws UsageError "FILE:LINE:COL: message".
 [[noreturn]] void fail(const SourceLocation& where, const std::string& message);
-
-/// Throws UsageError "... `subject` is not built yet (this version shades with punctual lights);
-/// `advice`".
-[[noreturn]] void fail_not_built(const SourceLocation& where, const std::string& subject, std::string_view advice);
 
 /// What a number may be. `words` completes "'f0' must be ...".
 struct Range {
@@ -48,6 +47,13 @@ inline constexpr Range positive{"more than 0", 0.0, std::numeric_limits<double>:
 /// Index of the string in `words`; with a suggestion if it is none of them.
 [[nodiscard]] std::size_t as_choice(const TomlValue& value, std::string_view key,
                                     std::span<const std::string_view> words);
+/// The value of an enumeration by its name_of; with a suggestion if it is none of them.
+template <typename Enum, std::size_t size>
+[[nodiscard]] Enum as_enum(const TomlValue& value, std::string_view key, const std::array<Enum, size>& all) {
+    std::array<std::string_view, size> names;
+    std::transform(all.begin(), all.end(), names.begin(), [](Enum each) { return name_of(each); });
+    return all.at(as_choice(value, key, names));
+}
 [[nodiscard]] bool as_bool(const TomlValue& value, std::string_view key);
 
 /// "'KEY' is KIND; write WHAT".
