@@ -38,7 +38,8 @@ std::string nearest(std::string_view word, const Range& candidates) {
     std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const auto& candidate : candidates) {
         const std::size_t distance = edit_distance(word, candidate);
-        if (distance < best_distance) {
+        // A word that shares nothing with the candidate ("x" and "z") is no slip of the pen.
+        if (distance < best_distance && distance < std::max(word.size(), candidate.size())) {
             best_distance = distance;
             best = candidate;
         }

@@ -24,11 +24,15 @@ struct ModelInfo {
     std::string_view source; ///< slide, paper, section of the formula specification
     std::string_view advice; ///< when to use it, when not
     std::span<const ParameterInfo> parameters;
+    std::string_view environment; ///< how an environment lights it: one sentence
 };
 
 /// All models, specular before diffuse, then the one entry "layers" of kind "stack". "none", the absence of a lobe, is
 /// not listed.
 [[nodiscard]] std::span<const ModelInfo> model_catalog();
+
+/// Keys of the scene's [environment], and `background` of [output].
+[[nodiscard]] std::span<const ParameterInfo> environment_keys();
 
 /// A material that scenes take by `preset = "NAME"`.
 struct PresetInfo {

@@ -125,12 +125,41 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"date", "[gbuffer]\nnormal = 2012-08-09\n", "5:10", "is a date"}),
     name_of_mistake);
 
-INSTANTIATE_TEST_SUITE_P(NotBuiltYet, Mistakes,
-                         testing::Values(Mistake{"environment", "[environment]\nimage = 'studio.hdr'\n", "4:2",
-                                                 "[environment] is not built yet"},
-                                         Mistake{"background", "[output]\nbackground = true\n", "5:1",
-                                                 "is not built yet"}),
-                         name_of_mistake);
+INSTANTIATE_TEST_SUITE_P(
+    Environment, Mistakes,
+    testing::Values(
+        Mistake{"key", "[environment]\nrotation_degree = 90\n", "5:1", "did you mean 'rotation_degrees'?"},
+        Mistake{"misspelt", "[enviroment]\n", "4:2", "did you mean 'environment'?"},
+        Mistake{"not_a_table", "environment = 'studio.hdr'\n", "4:15", "[environment] is a string; write a table"},
+        Mistake{"list", "[[environment]]\nimage = 'a.hdr'\n", "4:1", "[environment] is a list"},
+        Mistake{"image_number", "[environment]\nimage = 3\n", "5:9", "write a string"},
+        Mistake{"image_empty", "[environment]\nimage = ''\n", "5:9", "'image' is empty"},
+        Mistake{"negative", "[environment]\nintensity = -1\n", "5:13", "'intensity' is -1; it must be 0 or more"},
+        Mistake{"negative_channel", "[environment]\nintensity = [1, -0.5, 1]\n", "5:17", "'intensity' is -0.5"},
+        Mistake{"intensity_nan", "[environment]\nintensity = [1, 1, nan]\n", "5:20", "write a finite number"},
+        Mistake{"intensity_two", "[environment]\nintensity = [1, 1]\n", "5:13", "write one number or three"},
+        Mistake{"rotation_inf", "[environment]\nrotation_degrees = inf\n", "5:20", "write a finite number"},
+        Mistake{"rotation_text", "[environment]\nrotation_degrees = '90'\n", "5:20", "write a number"},
+        Mistake{"up", "[environment]\nup = 'x'\n", "5:6", "'up' is 'x', which is unknown; write one of 'z', 'y'"},
+        Mistake{"diffuse", "[environment]\ndiffuse = 'irradiance_mop'\n", "5:11", "did you mean 'irradiance_map'?"},
+        Mistake{"background_alone", "[output]\nbackground = true\n", "5:1", "; add [environment] with image"},
+        Mistake{"background_text", "[environment]\n[output]\nbackground = 'yes'\n", "6:14", "write true or false"},
+        Mistake{"absorption_ibl", "[material.default]\nabsorption_ibl = 'clampd'\ndiffuse = {}\n", "5:18",
+                "did you mean 'clamped'?"},
+        Mistake{"transmittance_ibl", "[material.default]\ntransmittance_ibl = 'deck'\ndiffuse = {}\n", "5:21",
+                "write one of 'fresnel', 'none'"},
+        Mistake{"absorption_ibl_key", "[material.default]\nabsorbtion_ibl = 'deck'\ndiffuse = {}\n", "5:1",
+                "did you mean 'absorption_ibl'?"},
+        Mistake{"ambient_choice",
+                "[material.default]\ndiffuse = { model = 'oren_nayar', shininess = 3, ambient = 'corse' }\n", "5:60",
+                "did you mean 'coarse'?"},
+        Mistake{"ambient_of_lambert", "[material.default]\ndiffuse = { model = 'lambert', ambient = 'fit' }\n", "5:32",
+                "'ambient' does nothing with model lambert"},
+        Mistake{"ambient_of_the_default", "[material.default]\ndiffuse = { ambient = 'fit' }\n", "5:13",
+                "'ambient' does nothing with model lambert"},
+        Mistake{"ambient_of_none", "[material.default]\nspecular = {}\ndiffuse = { model = 'none', ambient = 'fit' }\n",
+                "6:29", "'ambient' does nothing with model none"}),
+    name_of_mistake);
 
 /// Lights, each replacing the list of `head`.
 class LightMistakes : public testing::TestWithParam<Mistake> {};
@@ -189,7 +218,7 @@ TEST(BadScene, VersionIsAsked) {
 }
 
 TEST(BadScene, LightIsAsked) {
-    EXPECT_THAT(error_of("version = 1\n"), HasSubstr("add a [[light]]"));
+    EXPECT_THAT(error_of("version = 1\n"), HasSubstr("add a [[light]] or an [environment]"));
     EXPECT_THAT(error_of("version = 1\nlight = []\n"), HasSubstr("add a [[light]]"));
     EXPECT_THAT(error_of("version = 1\n[light]\ntype = 'point'\n"), HasSubstr("write [[light]]"));
     EXPECT_THAT(error_of("version = 1\n[gbuffer]\nemission = 'none'\n"), HasSubstr("add a [[light]]"));

@@ -1,6 +1,7 @@
 // What a correct scene means.
 #include "tests/scene/support.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -206,15 +207,14 @@ TEST(Scene, CamerasKnowTheirLens) {
 }
 
 TEST(Scene, NamesOfModelsAreTheirTomlNames) {
-    for (const auto model : {SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact}) {
-        const std::string text =
-            head + "[material.default]\ndiffuse = {}\nspecular.model = '" + std::string(name_of(model)) + "'\n";
+    for (const SpecularModel model : all_specular_models) {
+        std::string lobe = "model = '" + std::string(name_of(model)) + "'";
+        lobe += model == SpecularModel::blinn_phong_anisotropic ? ", shininess_u = 1, shininess_v = 2" : "";
+        lobe += model == SpecularModel::blinn_phong_spectral ? ", metal = 'gold'" : "";
+        const std::string text = head + "[material.default]\ndiffuse = {}\nspecular = { " + lobe + " }\n";
         EXPECT_EQ(parse(text).materials[0].base().model, model) << text;
     }
-    for (const auto model :
-         {DiffuseModel::none, DiffuseModel::lambert, DiffuseModel::oren_nayar, DiffuseModel::oren_nayar_full,
-          DiffuseModel::oren_nayar_qualitative, DiffuseModel::oren_nayar_simplified_1,
-          DiffuseModel::oren_nayar_simplified_2, DiffuseModel::oren_nayar_shininess}) {
+    for (const DiffuseModel model : all_diffuse_models) {
         const std::string text =
             head + "[material.default]\nspecular = {}\ndiffuse.model = '" + std::string(name_of(model)) + "'\n";
         EXPECT_EQ(parse(text).materials[0].diffuse.model, model) << text;
@@ -227,26 +227,118 @@ TEST(Scene, NamesOfModelsAreTheirTomlNames) {
     }
 }
 
-TEST(DefaultScene, HasThreeCameraLightsAndAnAutomaticMaterial) {
+TEST(Scene, NamesOfAmbientChoicesAreTheirTomlNames) {
+    const auto material_of = [](std::string_view key, std::string_view name) {
+        return parse(fmt::format("{}[material.default]\ndiffuse = {{}}\n{} = '{}'\n", head, key, name)).materials[0];
+    };
+    for (const AmbientAbsorption each : all_ambient_absorptions) {
+        EXPECT_EQ(material_of("absorption_ibl", name_of(each)).absorption_ibl, each);
+    }
+    for (const AmbientTransmittance each : all_ambient_transmittances) {
+        EXPECT_EQ(material_of("transmittance_ibl", name_of(each)).transmittance_ibl, each);
+    }
+    for (const AmbientDiffuse each : all_ambient_diffuses) {
+        for (const DiffuseModel model : all_diffuse_models) {
+            if (name_of(model).starts_with("oren_nayar")) {
+                const Scene scene = parse(fmt::format("{}[material.default]\ndiffuse = {{ model = '{}', shininess = 1, "
+                                                      "ambient = '{}' }}\n",
+                                                      head, name_of(model), name_of(each)));
+                EXPECT_EQ(scene.materials[0].diffuse.ambient, each);
+            }
+        }
+    }
+    for (const UpAxis each : all_up_axes) {
+        EXPECT_EQ(parse(fmt::format("{}[environment]\nup = '{}'\n", head, name_of(each))).environment->up, each);
+    }
+    for (const AmbientSource each : all_ambient_sources) {
+        EXPECT_EQ(parse(fmt::format("{}[environment]\ndiffuse = '{}'\n", head, name_of(each))).environment->diffuse,
+                  each);
+    }
+}
+
+/// Arrays that leave a value out would pass every test that walks them.
+TEST(Scene, ListsOfChoicesAreWhole) {
+    const auto expect_whole = [](const auto& all) {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            EXPECT_EQ(static_cast<std::size_t>(all.at(i)), i);
+            EXPECT_NE(name_of(all.at(i)), "");
+        }
+        return all.size();
+    };
+    EXPECT_EQ(expect_whole(all_specular_models), 5U);
+    EXPECT_EQ(expect_whole(all_diffuse_models), 8U);
+    EXPECT_EQ(expect_whole(all_fresnel_models), 2U);
+    EXPECT_EQ(expect_whole(all_absorption_models), 3U);
+    EXPECT_EQ(expect_whole(all_ambient_absorptions), 3U);
+    EXPECT_EQ(expect_whole(all_ambient_transmittances), 2U);
+    EXPECT_EQ(expect_whole(all_ambient_diffuses), 6U);
+    EXPECT_EQ(expect_whole(all_up_axes), 2U);
+    EXPECT_EQ(expect_whole(all_ambient_sources), 3U);
+}
+
+TEST(Environment, HasDefaults) {
+    EXPECT_FALSE(parse(head).environment.has_value());
+    EXPECT_FALSE(parse(head).background);
+    const Scene scene = parse("version = 1\n[environment]\n"); // light enough by itself
+    EXPECT_TRUE(scene.lights.empty());
+    ASSERT_TRUE(scene.environment.has_value());
+    EXPECT_EQ(scene.environment->image, "");
+    EXPECT_EQ(scene.environment->intensity, glm::dvec3(1.0));
+    EXPECT_FALSE(scene.environment->up.has_value());
+    EXPECT_EQ(scene.environment->rotation, 0.0);
+    EXPECT_EQ(scene.environment->diffuse, AmbientSource::sh2);
+    EXPECT_FALSE(scene.environment->in_camera_space);
+    EXPECT_EQ(scene.environment->where.line, 2);
+    EXPECT_FALSE(scene.background);
+    EXPECT_FALSE(parse(head + "[output]\nbackground = false\n").background);
+    EXPECT_EQ(environment_path(scene), "");
+    EXPECT_EQ(environment_path(parse(head)), "");
+}
+
+TEST(Environment, IsReadWhole) {
+    const Scene scene = parse(head + "[environment]\nimage = 'maps/studio.hdr'\nintensity = [0, 0.5, 2]\nup = 'y'\n"
+                                     "rotation_degrees = -450\ndiffuse = 'irradiance_map'\n[output]\n"
+                                     "background = true\n");
+    EXPECT_EQ(scene.environment->image, "maps/studio.hdr");
+    EXPECT_EQ(scene.environment->intensity, glm::dvec3(0, 0.5, 2));
+    EXPECT_EQ(scene.environment->up, UpAxis::y);
+    EXPECT_DOUBLE_EQ(scene.environment->rotation, -2.5 * glm::pi<double>());
+    EXPECT_EQ(scene.environment->diffuse, AmbientSource::irradiance_map);
+    EXPECT_TRUE(scene.background);
+    EXPECT_EQ(parse(head + "[environment]\nintensity = 3\n").environment->intensity, glm::dvec3(3.0));
+}
+
+TEST(Environment, ItsPathStartsAtTheSceneFile) {
+    const auto path_of = [](const std::string& file, const std::string& image) {
+        return environment_path(parse_scene("version = 1\n[environment]\nimage = '" + image + "'\n", file, {}, {}));
+    };
+    EXPECT_EQ(path_of("shots/a/scene.toml", "../maps/sky.exr"), "shots/a/../maps/sky.exr");
+    EXPECT_EQ(path_of("scene.toml", "sky.exr"), "sky.exr");
+    EXPECT_EQ(path_of("shots/scene.toml", "/maps/sky.exr"), "/maps/sky.exr");
+}
+
+TEST(DefaultScene, HasAKeyAStudioAndAnAutomaticMaterial) {
     const Scene scene = default_scene();
     EXPECT_TRUE(scene.file.empty());
     EXPECT_FALSE(scene.camera.has_value());
     EXPECT_TRUE(scene.automatic_material);
-    ASSERT_EQ(scene.lights.size(), 3U);
-    for (const Light& light : scene.lights) {
-        EXPECT_TRUE(light.in_camera_space) << light.name;
-        EXPECT_EQ(light.type, LightType::distant) << light.name;
-    }
+    ASSERT_EQ(scene.lights.size(), 1U);
+    EXPECT_EQ(scene.lights[0].name, "key");
+    EXPECT_EQ(scene.lights[0].type, LightType::distant);
+    EXPECT_TRUE(scene.lights[0].in_camera_space);
     // The key travels to the right, down and away from the camera: it comes over the left shoulder.
     const glm::dvec3 key = scene.lights[0].direction;
     EXPECT_GT(key.x, 0.0);
     EXPECT_LT(key.y, 0.0);
     EXPECT_LT(key.z, 0.0);
-    // The rim light comes from behind the objects: towards the camera.
-    EXPECT_GT(scene.lights[2].direction.z, 0.0);
-    // A grey surface facing the key: albedo / pi (1 - F0) E_0 between 0.3 and 0.6.
-    const double grey = 0.5 / glm::pi<double>() * 0.96 * scene.lights[0].power.g;
-    EXPECT_GT(grey, 0.3);
+    ASSERT_TRUE(scene.environment.has_value());
+    EXPECT_TRUE(scene.environment->in_camera_space);
+    EXPECT_TRUE(scene.environment->image.empty());
+    EXPECT_TRUE(scene.environment->where.file.empty());
+    EXPECT_FALSE(scene.background);
+    // A grey surface facing the key: albedo (1 - F0) (E_0/pi + 0.5), the mean radiance of the studio.
+    const double grey = 0.5 * 0.96 * (scene.lights[0].power.g / glm::pi<double>() + 0.5);
+    EXPECT_GT(grey, 0.5);
     EXPECT_LT(grey, 0.6);
 }
 

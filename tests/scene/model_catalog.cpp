@@ -2,8 +2,12 @@
 
 #include "tests/scene/support.h"
 
+#include <algorithm>
 #include <array>
 #include <set>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace clshade {
 namespace {
@@ -16,6 +20,9 @@ bool is_lobe(const ModelInfo& info) {
 std::string example_of(std::string_view parameter) {
     if (parameter == "metal") {
         return "'gold'";
+    }
+    if (parameter == "ambient") {
+        return "'fit'";
     }
     return parameter == "tangent" ? "[1, 0, 0]" : "1";
 }
@@ -78,11 +85,11 @@ TEST(ModelCatalog, KnowsEveryModelOfTheScene) {
     for (const ModelInfo& info : model_catalog()) {
         EXPECT_TRUE(names.insert(info.name).second) << info.name << " is listed twice";
     }
-    for (int i = 1; i <= static_cast<int>(SpecularModel::blinn_phong_spectral); ++i) {
-        EXPECT_EQ(names.count(name_of(static_cast<SpecularModel>(i))), 1U) << i;
+    for (const SpecularModel model : all_specular_models) {
+        EXPECT_EQ(names.count(name_of(model)), model == SpecularModel::none ? 0U : 1U) << name_of(model);
     }
-    for (int i = 1; i <= static_cast<int>(DiffuseModel::oren_nayar_shininess); ++i) {
-        EXPECT_EQ(names.count(name_of(static_cast<DiffuseModel>(i))), 1U) << i;
+    for (const DiffuseModel model : all_diffuse_models) {
+        EXPECT_EQ(names.count(name_of(model)), model == DiffuseModel::none ? 0U : 1U) << name_of(model);
     }
     EXPECT_EQ(names.size(), 4U + 7U + 1U);
 }
@@ -101,6 +108,7 @@ TEST(ModelCatalog, DocumentsEveryModelAndParameter) {
     for (const ModelInfo& info : model_catalog()) {
         EXPECT_THAT(std::string(info.source), testing::HasSubstr("models.md section")) << info.name;
         EXPECT_FALSE(info.summary.empty() || info.advice.empty()) << info.name;
+        EXPECT_THAT(std::string(info.environment), testing::HasSubstr("models.md section")) << info.name;
         EXPECT_FALSE(info.parameters.empty()) << info.name;
         for (const ParameterInfo& parameter : info.parameters) {
             EXPECT_FALSE(parameter.name.empty() || parameter.unit.empty() || parameter.range.empty() ||
@@ -113,9 +121,52 @@ TEST(ModelCatalog, DocumentsEveryModelAndParameter) {
 TEST(ModelCatalog, TheStackHasTheKeysOfAMaterial) {
     const ModelInfo& layers = model_catalog().back();
     EXPECT_EQ(layers.name, "layers");
-    EXPECT_EQ(parameters_of(layers), (std::set<std::string_view>{"layer", "fresnel", "absorption_model", "absorption",
-                                                                 "ids", "names", "preset"}));
+    EXPECT_EQ(parameters_of(layers),
+              (std::set<std::string_view>{"layer", "fresnel", "absorption_model", "absorption", "absorption_ibl",
+                                          "transmittance_ibl", "ids", "names", "preset"}));
     EXPECT_THAT(error_of(head, {}, "layers"), testing::HasSubstr("unknown model")); // no lobe
+}
+
+const ParameterInfo& find_key(std::span<const ParameterInfo> keys, std::string_view name) {
+    const auto found =
+        std::find_if(keys.begin(), keys.end(), [&](const ParameterInfo& parameter) { return parameter.name == name; });
+    EXPECT_NE(found, keys.end()) << name;
+    return *found;
+}
+
+template <typename Enum, std::size_t size>
+void expect_choices(const ParameterInfo& key, const std::array<Enum, size>& all) {
+    for (const Enum each : all) {
+        EXPECT_THAT(std::string(key.range), testing::ContainsRegex("\\b" + std::string(name_of(each)) + "\\b"));
+    }
+}
+
+TEST(ModelCatalog, NamesEveryChoice) {
+    const std::span<const ParameterInfo> stack = model_catalog().back().parameters;
+    expect_choices(find_key(stack, "fresnel"), all_fresnel_models);
+    expect_choices(find_key(stack, "absorption_model"), all_absorption_models);
+    expect_choices(find_key(stack, "absorption_ibl"), all_ambient_absorptions);
+    expect_choices(find_key(stack, "transmittance_ibl"), all_ambient_transmittances);
+    expect_choices(find_key(environment_keys(), "up"), all_up_axes);
+    expect_choices(find_key(environment_keys(), "diffuse"), all_ambient_sources);
+    for (const ModelInfo& info : model_catalog()) {
+        if (info.name.starts_with("oren_nayar")) {
+            expect_choices(find_key(info.parameters, "ambient"), all_ambient_diffuses);
+        }
+    }
+}
+
+TEST(ModelCatalog, TheParserTakesExactlyTheKeysOfAnEnvironment) {
+    std::set<std::string_view> names;
+    for (const ParameterInfo& key : environment_keys()) {
+        EXPECT_FALSE(key.unit.empty() || key.range.empty() || key.fallback.empty() || key.source.empty()) << key.name;
+        names.insert(key.name);
+    }
+    EXPECT_EQ(names,
+              (std::set<std::string_view>{"image", "intensity", "up", "rotation_degrees", "diffuse", "background"}));
+    EXPECT_EQ(error_of("version = 1\n[environment]\nimage = 'a'\nintensity = 1\nup = 'z'\nrotation_degrees = 1\n"
+                       "diffuse = 'sh2'\n[output]\nbackground = true\n"),
+              "");
 }
 
 } // namespace

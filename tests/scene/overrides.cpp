@@ -1,6 +1,7 @@
 // --set and --model.
 #include "tests/scene/support.h"
 
+#include <glm/gtc/constants.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -91,6 +92,44 @@ TEST(Overrides, ObeyTheSameRules) {
     EXPECT_THAT(error_of(with_material, {"material.default.specular.shininess=1e"}), // no number: a bare word
                 testing::Eq(""));                                                    // a layer of that name may exist
     EXPECT_THAT(error_of(with_material, {"light.key.irradiance=1e"}), HasSubstr("is a string; write a number"));
+}
+
+TEST(Overrides, ReachTheEnvironment) {
+    const std::string text = head + "[environment]\nimage = 'a.hdr'\n[[material.x.layer]]\nabsorption = 0.1\n"
+                                    "[[material.x.layer]]\ndiffuse = {}\n[material.x]\nids = [1]\n";
+    const Scene scene =
+        parse(text, {"environment.rotation_degrees=90", "environment.intensity=[1, 2, 3]", "environment.up=y",
+                     "environment.diffuse=sh3", "output.background=true", "material.x.absorption_ibl=clamped",
+                     "material.x.transmittance_ibl=none", "material.x.diffuse.model=oren_nayar",
+                     "material.x.diffuse.shininess=4", "material.x.diffuse.ambient=coarsest"});
+    ASSERT_TRUE(scene.environment.has_value());
+    EXPECT_EQ(scene.environment->image, "a.hdr");
+    EXPECT_DOUBLE_EQ(scene.environment->rotation, glm::half_pi<double>());
+    EXPECT_EQ(scene.environment->intensity, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(scene.environment->up, UpAxis::y);
+    EXPECT_EQ(scene.environment->diffuse, AmbientSource::sh3);
+    EXPECT_TRUE(scene.background);
+    EXPECT_EQ(scene.materials[1].absorption_ibl, AmbientAbsorption::clamped);
+    EXPECT_EQ(scene.materials[1].transmittance_ibl, AmbientTransmittance::none);
+    EXPECT_EQ(scene.materials[1].diffuse.ambient, AmbientDiffuse::coarsest);
+    // Without [environment] in the file they make one.
+    EXPECT_EQ(parse(head, {"environment.image=studio.hdr"}).environment->image, "studio.hdr");
+    EXPECT_THAT(error_of(head, {"output.background=true"}),
+                StartsWith("--set output.background=true: 'background' of [output]"));
+    EXPECT_THAT(error_of(text, {"environment.rotatoin_degrees=90"}),
+                StartsWith("--set environment.rotatoin_degrees=90: unknown key 'rotatoin_degrees' in [environment]; "
+                           "did you mean 'rotation_degrees'?"));
+    EXPECT_THAT(error_of(text, {"environment.intensity=-1"}), HasSubstr("it must be 0 or more"));
+}
+
+TEST(Overrides, AModelDropsTheAmbientThatItLacks) {
+    const std::string rough = head + "[material.default]\ndiffuse = { model = 'oren_nayar', shininess = 3, ambient = "
+                                     "'fit' }\n";
+    EXPECT_EQ(parse(rough).materials[0].diffuse.ambient, AmbientDiffuse::fit);
+    EXPECT_EQ(parse(rough, {}, "oren_nayar_full").materials[0].diffuse.ambient, AmbientDiffuse::fit);
+    EXPECT_EQ(parse(rough, {}, "lambert").materials[0].diffuse.ambient, AmbientDiffuse::precise);
+    EXPECT_THAT(error_of(rough, {"material.default.diffuse.ambient=fit"}, "lambert"),
+                HasSubstr("'ambient' does nothing with model lambert"));
 }
 
 TEST(Overrides, MustBeAssignments) {
@@ -203,7 +242,19 @@ TEST(DefaultScene, TakesOverrides) {
     EXPECT_EQ(scene.lights[0].power, glm::dvec3(9.0));
     EXPECT_TRUE(scene.lights[0].in_camera_space);
     EXPECT_TRUE(scene.automatic_material);
+    EXPECT_TRUE(scene.environment->in_camera_space);
     EXPECT_THROW((void)default_scene(std::vector<std::string>{"light.kye.irradiance=9"}, {}), UsageError);
+}
+
+TEST(DefaultScene, OnlyTheStudioTurnsWithTheCamera) {
+    const auto environment_of = [](const std::string& assignment) {
+        return default_scene(std::vector<std::string>{assignment}, {}).environment.value();
+    };
+    EXPECT_TRUE(environment_of("environment.rotation_degrees=20").in_camera_space);
+    EXPECT_FALSE(environment_of("environment.image=workshop.hdr").in_camera_space);
+    EXPECT_FALSE(environment_of("environment.up=z").in_camera_space);
+    EXPECT_TRUE(default_scene(std::vector<std::string>{"output.background=true"}, {}).background);
+    EXPECT_TRUE(default_scene(std::vector<std::string>{"light=[]"}, {}).lights.empty()); // the studio is light enough
 }
 
 } // namespace
