@@ -50,6 +50,9 @@ std::vector<std::string> output_plane_names(const Frame& frame, const AovSelecti
             add_colour(names, "light." + light.name);
         }
     }
+    if (aovs.environment && frame.environment) {
+        add_colour(names, "environment");
+    }
     return names;
 }
 

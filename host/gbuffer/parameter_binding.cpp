@@ -123,6 +123,8 @@ class MaterialBinder {
         bound.name = material_.name;
         bound.ids = material_.ids;
         bound.fresnel = material_.fresnel;
+        bound.absorption_ibl = material_.absorption_ibl;
+        bound.transmittance_ibl = material_.transmittance_ibl;
         bound.layers.clear();
         for (std::size_t k = 0; k < material_.layers.size(); ++k) {
             bound.layers.push_back(bind_layer(k));
@@ -257,6 +259,7 @@ class MaterialBinder {
     void bind_diffuse(BoundMaterial& bound) {
         const Diffuse& diffuse = material_.diffuse;
         bound.diffuse = diffuse.model;
+        bound.ambient = diffuse.ambient;
         if (bound.diffuse != DiffuseModel::none) {
             bound.albedo = automatic_.albedo ? bind_automatic(table_, roles_, {{Role::albedo, Conversion::none}},
                                                               diffuse.albedo, false, what("albedo"))

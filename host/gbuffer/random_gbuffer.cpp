@@ -213,17 +213,6 @@ Frame random_frame(int width, int height, SpecularModel specular, DiffuseModel d
 }
 
 StackShape random_shape(std::uint64_t seed) {
-    constexpr std::array lobes{SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact,
-                               SpecularModel::blinn_phong_anisotropic, SpecularModel::blinn_phong_spectral};
-    constexpr std::array diffuses{DiffuseModel::none,
-                                  DiffuseModel::lambert,
-                                  DiffuseModel::oren_nayar,
-                                  DiffuseModel::oren_nayar_full,
-                                  DiffuseModel::oren_nayar_qualitative,
-                                  DiffuseModel::oren_nayar_simplified_1,
-                                  DiffuseModel::oren_nayar_simplified_2,
-                                  DiffuseModel::oren_nayar_shininess};
-    constexpr std::array absorptions{AbsorptionModel::approximated, AbsorptionModel::original, AbsorptionModel::none};
     RandomGenerator random(seed);
     const auto one_of = [&](const auto& choices) {
         return choices[static_cast<std::size_t>(random.below(static_cast<int>(choices.size())))];
@@ -231,16 +220,32 @@ StackShape random_shape(std::uint64_t seed) {
     StackShape shape;
     shape.layers.resize(1 + static_cast<std::size_t>(random.below(static_cast<int>(most_layers))));
     for (SpecularModel& lobe : shape.layers) {
-        lobe = one_of(lobes);
+        lobe = one_of(all_specular_models);
     }
-    shape.diffuse = one_of(diffuses);
+    shape.diffuse = one_of(all_diffuse_models);
     shape.fresnel = random.below(2) == 0 ? FresnelModel::constant : FresnelModel::exact;
-    shape.absorption = one_of(absorptions);
+    shape.absorption = one_of(all_absorption_models);
     shape.some_constant = random.below(2) == 0;
     while (shape.layers.back() == SpecularModel::none && shape.diffuse == DiffuseModel::none) {
-        shape.layers.back() = one_of(lobes);
+        shape.layers.back() = one_of(all_specular_models);
     }
+    shape.absorption_ibl = one_of(all_ambient_absorptions);
+    shape.transmittance_ibl = one_of(all_ambient_transmittances);
+    shape.ambient = one_of(all_ambient_diffuses);
     return shape;
+}
+
+void add_random_environment(Frame& frame, std::shared_ptr<const LatLong> image, AmbientSource diffuse,
+                            std::uint64_t seed) {
+    RandomGenerator random(seed ^ 0x656e7669726f6e21U); // any other sequence than random_frame's
+    BoundEnvironment environment;
+    environment.world_to_image = random_rotation(random);
+    for (int i = 0; i < 3; ++i) {
+        environment.intensity[i] = random.between(0.5, 2.0);
+    }
+    environment.diffuse = diffuse;
+    environment.image = std::move(image);
+    frame.environment = std::move(environment);
 }
 
 } // namespace clshade

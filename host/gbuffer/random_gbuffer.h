@@ -4,6 +4,7 @@
 #include "host/gbuffer/frame.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace clshade {
@@ -14,6 +15,10 @@ struct StackShape {
     DiffuseModel diffuse = DiffuseModel::lambert;
     FresnelModel fresnel = FresnelModel::constant;
     AbsorptionModel absorption = AbsorptionModel::none;
+    // How the material takes an environment's light. Planes and constants do not depend on them.
+    AmbientAbsorption absorption_ibl = AmbientAbsorption::deck;
+    AmbientTransmittance transmittance_ibl = AmbientTransmittance::fresnel;
+    AmbientDiffuse ambient = AmbientDiffuse::precise;
     /// false: every parameter comes from planes (f0 above a spectral layer and metals excepted, which are constants).
     /// true: each parameter is a constant or planes, by chance.
     bool some_constant = false;
@@ -33,7 +38,12 @@ struct StackShape {
                                  std::uint64_t seed);
 
 /// A random shape: 1 to 8 layers of any lobes (the base at least with a lobe or a diffuse part), any diffuse, Fresnel
-/// and absorption model, some_constant true or false.
+/// and absorption model, any way to take an environment's light, some_constant true or false.
 [[nodiscard]] StackShape random_shape(std::uint64_t seed);
+
+/// Lights the frame by `image` too: turned by any angle about any axis, intensity 0.5..2 per channel, no background, no
+/// maps. The same seed gives the same values on every machine.
+void add_random_environment(Frame& frame, std::shared_ptr<const LatLong> image, AmbientSource diffuse,
+                            std::uint64_t seed);
 
 } // namespace clshade

@@ -131,6 +131,9 @@ BoundMaterial random_material(const StackShape& shape, RandomGenerator& random, 
     BoundMaterial material;
     material.name = "default";
     material.fresnel = shape.fresnel;
+    material.absorption_ibl = shape.absorption_ibl;
+    material.transmittance_ibl = shape.transmittance_ibl;
+    material.ambient = shape.ambient;
     material.diffuse = shape.diffuse;
     if (shape.diffuse != DiffuseModel::none) {
         material.albedo = binder.colour("Albedo", [&] { return random_colour(random); });

@@ -76,6 +76,24 @@ glm::dvec3 RandomGenerator::direction() {
     }
 }
 
+glm::dmat3 random_rotation(RandomGenerator& random) {
+    // A unit quaternion, uniform on its sphere; short ones are left out as inexact.
+    for (;;) {
+        const double w = random.between(-1.0, 1.0);
+        const double x = random.between(-1.0, 1.0);
+        const double y = random.between(-1.0, 1.0);
+        const double z = random.between(-1.0, 1.0);
+        const double norm = w * w + x * x + y * y + z * z;
+        if (norm > 1.0 || norm < 1e-4) {
+            continue;
+        }
+        const double k = 2.0 / norm;
+        return {glm::dvec3(1.0 - k * (y * y + z * z), k * (x * y + w * z), k * (x * z - w * y)),
+                glm::dvec3(k * (x * y - w * z), 1.0 - k * (x * x + z * z), k * (y * z + w * x)),
+                glm::dvec3(k * (x * z + w * y), k * (y * z - w * x), 1.0 - k * (x * x + y * y))};
+    }
+}
+
 double random_shininess(RandomGenerator& random, double largest) {
     constexpr double smallest = 1.0 / 16.0;
     int octaves = 1;

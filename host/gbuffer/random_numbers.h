@@ -40,6 +40,9 @@ class RandomGenerator {
 /// Components 0..0.6: all 0 in one of 6, equal ones in two, else each on its own and 0 in one of 6.
 [[nodiscard]] glm::dvec3 random_absorption(RandomGenerator& random);
 
+/// A rotation by any angle about any axis, uniform over all of them.
+[[nodiscard]] glm::dmat3 random_rotation(RandomGenerator& random);
+
 /// 0 in one of 20, partial in five, else 1.
 [[nodiscard]] double random_coverage(RandomGenerator& random);
 

@@ -362,6 +362,15 @@ TEST(OutputPlanes, NamesInOrder) {
                 ElementsAre("R", "G", "B", "A", "diffuse.R", "diffuse.G", "diffuse.B", "specular.R", "specular.G",
                             "specular.B", "light.key.R", "light.key.G", "light.key.B", "light.rim.R", "light.rim.G",
                             "light.rim.B"));
+    AovSelection with_environment;
+    with_environment.lights = true;
+    with_environment.environment = true;
+    EXPECT_THAT(output_plane_names(frame, with_environment), Not(Contains("environment.R"))); // it has none
+    frame.environment.emplace();
+    EXPECT_THAT(output_plane_names(frame, with_environment),
+                ElementsAre("R", "G", "B", "A", "light.key.R", "light.key.G", "light.key.B", "light.rim.R",
+                            "light.rim.G", "light.rim.B", "environment.R", "environment.G", "environment.B"));
+    EXPECT_THAT(output_plane_names(frame, {}), ElementsAre("R", "G", "B", "A"));
 }
 
 } // namespace

@@ -132,6 +132,24 @@ TEST(RandomStacks, TakeFresnelAndAbsorptionFromTheShape) {
     EXPECT_THROW((void)random_frame(4, 4, shape_of(std::vector<SpecularModel>(9)), 1), UsageError);
 }
 
+TEST(RandomStacks, TakeAmbientLightAsTheShapeSays) {
+    StackShape shape = shape_of({SpecularModel::blinn_phong, SpecularModel::blinn_phong}, AbsorptionModel::original);
+    shape.diffuse = DiffuseModel::oren_nayar;
+    const Frame plain = random_frame(16, 8, shape, 1);
+    EXPECT_EQ(plain.materials[0].absorption_ibl, AmbientAbsorption::deck);
+    EXPECT_EQ(plain.materials[0].transmittance_ibl, AmbientTransmittance::fresnel);
+    EXPECT_EQ(plain.materials[0].ambient, AmbientDiffuse::precise);
+    shape.absorption_ibl = AmbientAbsorption::clamped;
+    shape.transmittance_ibl = AmbientTransmittance::none;
+    shape.ambient = AmbientDiffuse::full;
+    const Frame other = random_frame(16, 8, shape, 1);
+    EXPECT_EQ(other.materials[0].absorption_ibl, AmbientAbsorption::clamped);
+    EXPECT_EQ(other.materials[0].transmittance_ibl, AmbientTransmittance::none);
+    EXPECT_EQ(other.materials[0].ambient, AmbientDiffuse::full);
+    EXPECT_EQ(hash_of(other), hash_of(plain));
+    EXPECT_FALSE(other.environment.has_value());
+}
+
 TEST(RandomStacks, CoatsAreMostlyDielectrics) {
     const Frame frame = random_frame(side, side, shape_of({SpecularModel::blinn_phong, SpecularModel::blinn_phong}), 2);
     const std::vector<glm::dvec3> coat = values_of(frame, frame.materials[0].layers[0].f0);
@@ -312,6 +330,9 @@ TEST(RandomShapes, CoverEverythingThereIs) {
     std::set<FresnelModel> fresnels;
     std::set<AbsorptionModel> absorptions;
     std::set<bool> constants;
+    std::set<AmbientAbsorption> ambient_absorptions;
+    std::set<AmbientTransmittance> transmittances;
+    std::set<AmbientDiffuse> ambients;
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
         const StackShape shape = random_shape(seed);
         ASSERT_GE(shape.layers.size(), 1U);
@@ -325,14 +346,20 @@ TEST(RandomShapes, CoverEverythingThereIs) {
         fresnels.insert(shape.fresnel);
         absorptions.insert(shape.absorption);
         constants.insert(shape.some_constant);
+        ambient_absorptions.insert(shape.absorption_ibl);
+        transmittances.insert(shape.transmittance_ibl);
+        ambients.insert(shape.ambient);
         EXPECT_EQ(shape.largest_shininess, 65536.0);
     }
     EXPECT_EQ(depths.size(), most_layers);
-    EXPECT_EQ(lobes.size(), 5U);
-    EXPECT_EQ(bases.size(), 5U);
-    EXPECT_EQ(diffuses.size(), 8U);
-    EXPECT_EQ(fresnels.size(), 2U);
-    EXPECT_EQ(absorptions.size(), 3U);
+    EXPECT_EQ(lobes.size(), all_specular_models.size());
+    EXPECT_EQ(bases.size(), all_specular_models.size());
+    EXPECT_EQ(diffuses.size(), all_diffuse_models.size());
+    EXPECT_EQ(fresnels.size(), all_fresnel_models.size());
+    EXPECT_EQ(absorptions.size(), all_absorption_models.size());
+    EXPECT_EQ(ambient_absorptions.size(), all_ambient_absorptions.size());
+    EXPECT_EQ(transmittances.size(), all_ambient_transmittances.size());
+    EXPECT_EQ(ambients.size(), all_ambient_diffuses.size());
     EXPECT_EQ(constants.size(), 2U);
 }
 

@@ -70,6 +70,22 @@ TEST(BindStack, EveryLayerHasItsOwnParameters) {
     EXPECT_EQ(plane_of(plan, material.base().shininess.planes[0]), "ViewLayer.metallic.X");
 }
 
+TEST(BindStack, TakesTheKeysOfAmbientLight) {
+    Scene scene = coated_scene();
+    const BoundMaterial plain = bound_of(blender_layout(), scene);
+    EXPECT_EQ(plain.absorption_ibl, AmbientAbsorption::deck);
+    EXPECT_EQ(plain.transmittance_ibl, AmbientTransmittance::fresnel);
+    EXPECT_EQ(plain.ambient, AmbientDiffuse::precise);
+    scene.materials[0].absorption_ibl = AmbientAbsorption::exponential;
+    scene.materials[0].transmittance_ibl = AmbientTransmittance::none;
+    scene.materials[0].diffuse.model = DiffuseModel::oren_nayar;
+    scene.materials[0].diffuse.ambient = AmbientDiffuse::order1;
+    const BoundMaterial written = bound_of(blender_layout(), scene);
+    EXPECT_EQ(written.absorption_ibl, AmbientAbsorption::exponential);
+    EXPECT_EQ(written.transmittance_ibl, AmbientTransmittance::none);
+    EXPECT_EQ(written.ambient, AmbientDiffuse::order1);
+}
+
 TEST(BindStack, MessagesNameTheLayer) {
     Scene scene = coated_scene();
     scene.materials[0].layers[1].specular.shininess = Parameter::from("f0");
