@@ -16,14 +16,6 @@ constexpr std::array<SpecularModel, 3> old_lobes{SpecularModel::none, SpecularMo
                                                  SpecularModel::blinn_phong_exact};
 constexpr std::array<SpecularModel, 2> special_lobes{SpecularModel::blinn_phong_anisotropic,
                                                      SpecularModel::blinn_phong_spectral};
-constexpr std::array<DiffuseModel, 8> diffuses{DiffuseModel::none,
-                                               DiffuseModel::lambert,
-                                               DiffuseModel::oren_nayar,
-                                               DiffuseModel::oren_nayar_full,
-                                               DiffuseModel::oren_nayar_qualitative,
-                                               DiffuseModel::oren_nayar_simplified_1,
-                                               DiffuseModel::oren_nayar_simplified_2,
-                                               DiffuseModel::oren_nayar_shininess};
 // The generator writes a diffuse part the same way under any lobe with Fresnel, so these three stand for all there.
 constexpr std::array<DiffuseModel, 3> typical_diffuses{DiffuseModel::none, DiffuseModel::lambert,
                                                        DiffuseModel::oren_nayar};
@@ -43,7 +35,7 @@ SuiteCase case_of(const Lobes& lobes, DiffuseModel diffuse, FresnelModel fresnel
 
 void add_single_layers(std::vector<SuiteCase>& suite) {
     for (const SpecularModel lobe : old_lobes) {
-        for (const DiffuseModel diffuse : diffuses) {
+        for (const DiffuseModel diffuse : all_diffuse_models) {
             if (lobe != SpecularModel::none || diffuse != DiffuseModel::none) { // neither: black
                 suite.push_back(case_of({lobe}, diffuse));
             }
@@ -54,9 +46,10 @@ void add_single_layers(std::vector<SuiteCase>& suite) {
             suite.push_back(case_of({lobe}, diffuse));
         }
     }
-    for (const SpecularModel lobe : {SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact,
-                                     SpecularModel::blinn_phong_anisotropic, SpecularModel::blinn_phong_spectral}) {
-        suite.push_back(case_of({lobe}, DiffuseModel::lambert, FresnelModel::exact));
+    for (const SpecularModel lobe : all_specular_models) {
+        if (lobe != SpecularModel::none) {
+            suite.push_back(case_of({lobe}, DiffuseModel::lambert, FresnelModel::exact));
+        }
     }
 }
 

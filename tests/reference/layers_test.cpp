@@ -16,24 +16,13 @@
 namespace clshade::reference {
 namespace {
 
-constexpr std::array<FresnelModel, 2> fresnels{FresnelModel::constant, FresnelModel::exact};
-constexpr std::array<AbsorptionModel, 3> absorptions{AbsorptionModel::approximated, AbsorptionModel::original,
-                                                     AbsorptionModel::none};
-constexpr std::array<DiffuseModel, 7> diffuses{DiffuseModel::lambert,
-                                               DiffuseModel::oren_nayar,
-                                               DiffuseModel::oren_nayar_full,
-                                               DiffuseModel::oren_nayar_qualitative,
-                                               DiffuseModel::oren_nayar_simplified_1,
-                                               DiffuseModel::oren_nayar_simplified_2,
-                                               DiffuseModel::oren_nayar_shininess};
-
 /// A random stack on a random albedo, under random directions.
 struct RandomCase {
     explicit RandomCase(std::uint64_t seed) : random(seed), layers(random.layers()) {
         eye = random.direction();
         light = random.direction();
         angles = unclamped_angles(eye, light);
-        diffuse = diffuses[static_cast<std::size_t>(random.between(0.0, 7.0))];
+        diffuse = all_diffuse_models.at(1 + static_cast<std::size_t>(random.between(0.0, 7.0))); // none left out
         albedo = {random.between(0.0, 1.0), random.between(0.0, 1.0), random.between(0.0, 1.0)};
     }
     [[nodiscard]] MaterialValues stack(const std::vector<LayerValues>& of, FresnelModel fresnel,
@@ -75,8 +64,8 @@ RC_GTEST_PROP(Stack, ALayerOfIndexOneAnywhereChangesNoBit, ()) {
     if (c.layers.size() == most_layers) {
         c.layers.pop_back();
     }
-    for (const FresnelModel fresnel : fresnels) {
-        for (const AbsorptionModel absorption : absorptions) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
+        for (const AbsorptionModel absorption : all_absorption_models) {
             const Reflected without = c.reflected(c.layers, fresnel, absorption);
             for (std::size_t at = 0; at < c.layers.size(); ++at) {
                 for (const SpecularModel model :
@@ -98,7 +87,7 @@ RC_GTEST_PROP(Stack, ALayerOfIndexOneInOneChannelChangesNothingThere, ()) {
         c.layers.pop_back();
     }
     const LayerValues coat = layer_of(SpecularModel::blinn_phong, {0.04, 0.0, 0.5}, 300.0);
-    for (const FresnelModel fresnel : fresnels) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
         const Reflected without = c.reflected(c.layers, fresnel, AbsorptionModel::none);
         for (std::size_t at = 0; at < c.layers.size(); ++at) {
             std::vector<LayerValues> more = c.layers;
@@ -123,7 +112,7 @@ RC_GTEST_PROP(Stack, ALayerOfTheIndexAboveItReflectsNothing, ()) {
     std::vector<LayerValues> more = c.layers;
     coat.shininess = 3.0;
     more.insert(more.begin() + 1, coat);
-    for (const FresnelModel fresnel : fresnels) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
         expect_same_bits(c.reflected(more, fresnel, AbsorptionModel::none),
                          c.reflected(c.layers, fresnel, AbsorptionModel::none));
     }
@@ -247,7 +236,7 @@ RC_GTEST_PROP(Stack, ExactEqualsConstantAtNormalIncidence, ()) {
 
 RC_GTEST_PROP(Stack, VanishingAbsorptionIsNone, ()) {
     RandomCase c = random_case();
-    for (const FresnelModel fresnel : fresnels) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
         const Reflected none = c.reflected(c.layers, fresnel, AbsorptionModel::none);
         for (const AbsorptionModel absorption : {AbsorptionModel::approximated, AbsorptionModel::original}) {
             std::vector<LayerValues> layers = c.layers;
@@ -310,7 +299,7 @@ TEST(Stack, AMediumWithoutAnInterfaceAbsorbs) {
 
 TEST(Stack, NothingIsSeenBelowAMirror) {
     StackGenerator random(3);
-    for (const FresnelModel fresnel : fresnels) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
         const LayerValues mirror = layer_of(SpecularModel::blinn_phong_exact, {1.0, 0.04, 1.0}, 50.0);
         for (const SpecularModel below : {SpecularModel::blinn_phong, SpecularModel::blinn_phong_spectral}) {
             for (const glm::dvec3& f0 : {glm::dvec3(1.0), glm::dvec3(0.0), glm::dvec3(0.5)}) {
@@ -339,8 +328,8 @@ RC_GTEST_PROP(Stack, IsReciprocal, ()) {
     RandomCase c = random_case();
     const Angles& a = c.angles;
     const Angles b = unclamped_angles(c.light, c.eye);
-    for (const FresnelModel fresnel : fresnels) {
-        for (const AbsorptionModel absorption : absorptions) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
+        for (const AbsorptionModel absorption : all_absorption_models) {
             const MaterialValues m = c.stack(c.layers, fresnel, absorption);
             const Reflected forth = reflect(m, a);
             const Reflected back = reflect(m, b);
@@ -360,7 +349,7 @@ RC_GTEST_PROP(Stack, IsReciprocal, ()) {
 RC_GTEST_PROP(Stack, SharesNeverAddUpToMoreThanOne, ()) {
     // host/reference/layers.h, "Energy": exact always; constant where the base is not outer.
     RandomCase c = random_case();
-    for (const FresnelModel fresnel : fresnels) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
         const MaterialValues m = c.stack(c.layers, fresnel, AbsorptionModel::none);
         const StackWeights weights = stack_weights(m, c.angles);
         glm::dvec3 sum = weights.diffuse;
@@ -379,7 +368,7 @@ RC_GTEST_PROP(Stack, SharesNeverAddUpToMoreThanOne, ()) {
 
 RC_GTEST_PROP(Stack, AbsorptionOnlyTakes, ()) {
     RandomCase c = random_case();
-    for (const FresnelModel fresnel : fresnels) {
+    for (const FresnelModel fresnel : all_fresnel_models) {
         const Reflected none = c.reflected(c.layers, fresnel, AbsorptionModel::none);
         for (const AbsorptionModel absorption : {AbsorptionModel::approximated, AbsorptionModel::original}) {
             const Reflected r = c.reflected(c.layers, fresnel, absorption);

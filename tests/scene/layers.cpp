@@ -100,7 +100,7 @@ TEST(Stack, NamesOfItsModelsAreTheirTomlNames) {
         const std::string key = "fresnel = '" + std::string(name_of(fresnel)) + "'\n";
         EXPECT_EQ(only_material("[material.default]\ndiffuse = {}\n" + key).fresnel, fresnel);
     }
-    for (const auto model : {AbsorptionModel::approximated, AbsorptionModel::original, AbsorptionModel::none}) {
+    for (const AbsorptionModel model : all_absorption_models) {
         const std::string key = "absorption_model = '" + std::string(name_of(model)) + "'\n";
         EXPECT_EQ(only_material("[material.default]\ndiffuse = {}\n" + key).absorption_model, model);
     }

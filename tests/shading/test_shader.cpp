@@ -38,14 +38,11 @@ INSTANTIATE_TEST_SUITE_P(NewerLobes, EveryModel,
                                           testing::Values(DiffuseModel::none, DiffuseModel::oren_nayar)),
                          name_of_pair);
 
-INSTANTIATE_TEST_SUITE_P(
-    Pairs, EveryModel,
-    testing::Combine(testing::Values(SpecularModel::none, SpecularModel::blinn_phong, SpecularModel::blinn_phong_exact),
-                     testing::Values(DiffuseModel::none, DiffuseModel::lambert, DiffuseModel::oren_nayar,
-                                     DiffuseModel::oren_nayar_full, DiffuseModel::oren_nayar_qualitative,
-                                     DiffuseModel::oren_nayar_simplified_1, DiffuseModel::oren_nayar_simplified_2,
-                                     DiffuseModel::oren_nayar_shininess)),
-    name_of_pair);
+INSTANTIATE_TEST_SUITE_P(Pairs, EveryModel,
+                         testing::Combine(testing::Values(SpecularModel::none, SpecularModel::blinn_phong,
+                                                          SpecularModel::blinn_phong_exact),
+                                          testing::ValuesIn(all_diffuse_models)),
+                         name_of_pair);
 
 TEST(Shader, BandsGiveTheSameBytesAsTheWhole) {
     Frame frame = random_frame(width, height, SpecularModel::blinn_phong, DiffuseModel::oren_nayar, 3);
