@@ -208,10 +208,14 @@ TEST(Scene, CamerasKnowTheirLens) {
 
 TEST(Scene, NamesOfModelsAreTheirTomlNames) {
     for (const SpecularModel model : all_specular_models) {
-        std::string lobe = "model = '" + std::string(name_of(model)) + "'";
-        lobe += model == SpecularModel::blinn_phong_anisotropic ? ", shininess_u = 1, shininess_v = 2" : "";
-        lobe += model == SpecularModel::blinn_phong_spectral ? ", metal = 'gold'" : "";
-        const std::string text = head + "[material.default]\ndiffuse = {}\nspecular = { " + lobe + " }\n";
+        std::string needs;
+        if (model == SpecularModel::blinn_phong_anisotropic) {
+            needs = ", shininess_u = 1, shininess_v = 2";
+        } else if (model == SpecularModel::blinn_phong_spectral) {
+            needs = ", metal = 'gold'";
+        }
+        const std::string text = fmt::format("{}[material.default]\ndiffuse = {{}}\nspecular = {{ model = '{}'{} }}\n",
+                                             head, name_of(model), needs);
         EXPECT_EQ(parse(text).materials[0].base().model, model) << text;
     }
     for (const DiffuseModel model : all_diffuse_models) {
