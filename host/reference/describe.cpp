@@ -1,5 +1,7 @@
 #include "host/reference/angles.h"
+#include "host/reference/environment_light.h"
 #include "host/reference/lights.h"
+#include "host/reference/radiance_filter.h"
 #include "host/reference/reference.h"
 #include "host/reference/surface.h"
 
@@ -65,6 +67,35 @@ void add_light(Description& description, const Light& light, const Surface& surf
     add_vector(description, light.name + ".E0", incident.irradiance, "RGB");
 }
 
+/// What rule 11 looks up.
+void add_environment(Description& description, const PreparedEnvironment& environment, const MaterialValues& material,
+                     const Surface& surface) {
+    const double x = std::max(glm::dot(surface.normal, surface.eye), 1e-4);
+    description.emplace_back("environment.NE", x);
+    add_vector(description, "environment.R", 2.0 * x * surface.normal - surface.eye, "XYZ");
+    const glm::dvec3 irradiance = environment.diffuse_light(surface.normal, glm::dvec3(0.0)).all();
+    add_vector(description, "environment.E/pi", irradiance, "RGB");
+    const auto layers = material.layers();
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+        if (layers[k].specular == SpecularModel::none) {
+            continue;
+        }
+        const std::string name = fmt::format("layer{}", k + 1);
+        description.emplace_back(name + ".mip", mip_of_shininess(ambient_shininess(layers[k]), sharpest_shininess,
+                                                                 radiance_levels - 1, 1.0));
+        add_vector(description, name + ".L", gathered_radiance(layers[k], environment, surface.normal, surface.eye),
+                   "RGB");
+    }
+}
+
+Description describe_empty(const PreparedFrame& prepared, int x, int y) {
+    Description description{{"surface", 0.0}};
+    if (prepared.environment() != nullptr && prepared.environment()->bound().background) {
+        add_vector(description, "ray", ray_direction(prepared.frame(), x, y), "XYZ");
+    }
+    return description;
+}
+
 } // namespace
 
 std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, int x, int y) {
@@ -74,7 +105,7 @@ std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, i
     }
     const std::optional<Surface> surface = read_surface(frame, x, y);
     if (!surface) {
-        return {{"surface", 0.0}};
+        return describe_empty(prepared, x, y);
     }
     Description description{{"coverage", surface->coverage}};
     add_vector(description, "N", surface->normal, "XYZ");
@@ -83,9 +114,13 @@ std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, i
         add_vector(description, "position", *surface->position, "XYZ");
     }
     description.emplace_back("material", surface->material);
-    add_material(description, read_material(prepared, *surface, x, y));
+    const MaterialValues material = read_material(prepared, *surface, x, y);
+    add_material(description, material);
     for (const Light& light : frame.lights) {
         add_light(description, light, *surface);
+    }
+    if (const PreparedEnvironment* environment = prepared.environment()) {
+        add_environment(description, *environment, material, *surface);
     }
     return description;
 }

@@ -22,6 +22,8 @@ struct Interface {
     glm::dvec3 r{0.0};         ///< r_k: reflectance at normal incidence
 };
 
+class MetalAmbient;
+
 struct LayerValues {
     SpecularModel specular = SpecularModel::none;
     glm::dvec3 f0{0.0};    ///< in air
@@ -31,7 +33,8 @@ struct LayerValues {
     double shininess_v = 0.0;
     glm::dvec3 tangent_read{0.0}; ///< t of rule 6: world space, any length
     TangentFrame frame;
-    const SpectralMetal* metal = nullptr; ///< spectral; belongs to the PreparedFrame
+    const SpectralMetal* metal = nullptr;        ///< spectral; belongs to the PreparedFrame
+    const MetalAmbient* metal_ambient = nullptr; ///< the same, where the frame has an environment
     glm::dvec3 absorption{0.0};
     Interface interface;
 };
@@ -40,7 +43,10 @@ struct LayerValues {
 struct MaterialValues {
     FresnelModel fresnel = FresnelModel::constant;
     AbsorptionModel absorption = AbsorptionModel::none;
+    AmbientAbsorption absorption_ibl = AmbientAbsorption::deck;
+    AmbientTransmittance transmittance_ibl = AmbientTransmittance::fresnel;
     DiffuseModel diffuse = DiffuseModel::none;
+    AmbientDiffuse ambient = AmbientDiffuse::precise;
     glm::dvec3 albedo{0.0};
     double diffuse_shininess = 0.0;
     bool clamped = false;    ///< f0, albedo or absorption lay beyond its range by more than 1e-3

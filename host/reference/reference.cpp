@@ -2,6 +2,7 @@
 
 #include "host/reference/angles.h"
 #include "host/reference/brdf.h"
+#include "host/reference/environment_light.h"
 #include "host/reference/lights.h"
 #include "host/reference/rows.h"
 #include "host/reference/surface.h"
@@ -27,6 +28,41 @@ Pixel unusable_pixel(const AovSelection& aovs, std::size_t lights) {
     return pixel;
 }
 
+/// Adds one source's share to the sums of rule 10.
+void add(const glm::dvec3& diffuse, const glm::dvec3& specular, Pixel& pixel) {
+    pixel.diffuse += diffuse;
+    pixel.specular += specular;
+}
+
+/// Rule 10 for a pixel with a surface.
+Pixel shade_surface(const PreparedFrame& prepared, const Surface& surface, int x, int y, const AovSelection& aovs) {
+    const Frame& frame = prepared.frame();
+    Pixel pixel = unusable_pixel(aovs, frame.lights.size());
+    const MaterialValues material = read_material(prepared, surface, x, y);
+    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
+        const Incident light = incident_light(frame.lights[i], surface.position);
+        const Angles angles = angles_between(surface.normal, surface.eye, light.direction);
+        const Reflected reflected = reflect(material, angles);
+        const glm::dvec3 weight = light.irradiance * surface.coverage;
+        add(reflected.diffuse * weight, reflected.specular * weight, pixel);
+        if (aovs.lights) {
+            pixel.lights[i] = (reflected.diffuse + reflected.specular) * weight;
+        }
+    }
+    if (const PreparedEnvironment* environment = prepared.environment()) {
+        const EnvironmentLight light = environment_light(material, *environment, surface.normal, surface.eye);
+        add(light.diffuse * surface.coverage, light.specular * surface.coverage, pixel);
+        pixel.environment = (light.diffuse + light.specular) * surface.coverage;
+    }
+    pixel.radiance = pixel.diffuse + pixel.specular + read_emission(frame, surface, x, y) * surface.coverage;
+    pixel.alpha = surface.coverage;
+    pixel.material = surface.material;
+    pixel.clamped = material.clamped;
+    pixel.fractional_id = surface.fractional_id;
+    pixel.no_tangent = material.no_tangent;
+    return pixel;
+}
+
 Pixel shade_with(const PreparedFrame& prepared, int x, int y, const AovSelection& aovs) {
     const Frame& frame = prepared.frame();
     Pixel pixel = unusable_pixel(aovs, frame.lights.size());
@@ -34,38 +70,24 @@ Pixel shade_with(const PreparedFrame& prepared, int x, int y, const AovSelection
         pixel.nonfinite = true;
         return pixel;
     }
-    const std::optional<Surface> surface = read_surface(frame, x, y);
-    if (!surface) {
-        return pixel;
+    if (const std::optional<Surface> surface = read_surface(frame, x, y)) {
+        pixel = shade_surface(prepared, *surface, x, y, aovs);
     }
-    const MaterialValues material = read_material(prepared, *surface, x, y);
-    for (std::size_t i = 0; i < frame.lights.size(); ++i) {
-        const Incident light = incident_light(frame.lights[i], surface->position);
-        const Angles angles = angles_between(surface->normal, surface->eye, light.direction);
-        const Reflected reflected = reflect(material, angles);
-        const glm::dvec3 weight = light.irradiance * surface->coverage;
-        pixel.diffuse += reflected.diffuse * weight;
-        pixel.specular += reflected.specular * weight;
-        if (aovs.lights) {
-            pixel.lights[i] = (reflected.diffuse + reflected.specular) * weight;
-        }
+    const PreparedEnvironment* environment = prepared.environment();
+    if (environment != nullptr && environment->bound().background) { // rule 12
+        pixel.radiance += (1.0 - pixel.alpha) * environment->background(ray_direction(frame, x, y));
+        pixel.alpha = 1.0;
     }
-    pixel.radiance = pixel.diffuse + pixel.specular + read_emission(frame, *surface, x, y) * surface->coverage;
     if (!fits_in_float(pixel.radiance)) { // every part is non-negative, so no AOV is larger
         pixel = unusable_pixel(aovs, frame.lights.size());
         pixel.nonfinite = true;
-        return pixel;
     }
-    pixel.alpha = surface->coverage;
-    pixel.material = surface->material;
-    pixel.clamped = material.clamped;
-    pixel.fractional_id = surface->fractional_id;
-    pixel.no_tangent = material.no_tangent;
     return pixel;
 }
 
 /// Writes a pixel's outputs in the order of output_plane_names.
 void store(const Pixel& pixel, const AovSelection& aovs, std::size_t at, std::vector<std::vector<double>>& planes) {
+    // Planes are in the order of output_plane_names, that of the environment last: there only if the frame has one.
     std::size_t plane = 0;
     const auto put = [&](const glm::dvec3& v) {
         for (int i = 0; i < 3; ++i) {
@@ -83,6 +105,9 @@ void store(const Pixel& pixel, const AovSelection& aovs, std::size_t at, std::ve
     for (const glm::dvec3& light : pixel.lights) {
         put(light);
     }
+    if (plane < planes.size()) {
+        put(pixel.environment);
+    }
 }
 
 void count(const Pixel& pixel, PixelCounts& counts) {
@@ -93,7 +118,8 @@ void count(const Pixel& pixel, PixelCounts& counts) {
 }
 
 std::size_t plane_count(const Frame& frame, const AovSelection& aovs) {
-    return 4 + (aovs.diffuse ? 3U : 0U) + (aovs.specular ? 3U : 0U) + (aovs.lights ? 3 * frame.lights.size() : 0U);
+    return 4 + (aovs.diffuse ? 3U : 0U) + (aovs.specular ? 3U : 0U) + (aovs.lights ? 3 * frame.lights.size() : 0U) +
+           (aovs.environment && frame.environment ? 3U : 0U);
 }
 
 } // namespace

@@ -18,6 +18,7 @@ struct Pixel {
     double alpha = 0.0;
     glm::dvec3 diffuse{0.0};
     glm::dvec3 specular{0.0};
+    glm::dvec3 environment{0.0};    ///< the environment's share of diffuse and specular; not the background
     std::vector<glm::dvec3> lights; ///< per light, filled only if asked for
     int material = -1;              ///< index of the material that claimed the pixel; -1: no surface
     bool nonfinite = false;
@@ -42,8 +43,10 @@ struct Image {
 
 /// What a pixel's formulas start from, by name, for messages about it: coverage, N, E, position, material, its
 /// parameters after conversion (those of layer k, the top being 1, as "layer1.f0.R", "layer1.shininess", "layer1.T.X",
-/// "layer1.absorption.R"), and per light ("key.NL", ...) N.L, N.E, N.H, E.H and E_0. "nonfinite" = 1 or
-/// "surface" = 0 alone where there is nothing to shade.
+/// "layer1.absorption.R"), and per light ("key.NL", ...) N.L, N.E, N.H, E.H and E_0. Of an environment
+/// "environment.NE", its mirror direction "environment.R.X" and E/pi "environment.E/pi.R", and per layer "layer1.mip"
+/// and what was looked up there, "layer1.L.R". "nonfinite" = 1 or "surface" = 0 alone where there is nothing to shade;
+/// with a background also its direction, "ray.X".
 [[nodiscard]] std::vector<std::pair<std::string, double>> describe_pixel(const Frame& frame, int x, int y);
 
 } // namespace clshade::reference

@@ -2,6 +2,7 @@
 
 #include "host/reference/angles.h"
 #include "host/reference/brdf.h"
+#include "host/reference/environment_light.h"
 #include "host/reference/layers.h"
 #include "host/reference/lights.h"
 #include "host/reference/rows.h"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace clshade::reference {
 
@@ -153,6 +155,48 @@ glm::dvec3 light_shift(const Variants& variants, const Light& light, const glm::
     return shift;
 }
 
+/// Radiance of the environment along given N and E.
+glm::dvec3 environment_radiance(const MaterialValues& material, const PreparedEnvironment& environment,
+                                const glm::dvec3& normal, const glm::dvec3& eye) {
+    const EnvironmentLight light = environment_light(material, environment, normal, eye);
+    return light.diffuse + light.specular;
+}
+
+/// Sum of the changes for the environment.
+glm::dvec3 environment_shift(const Variants& variants, const PreparedEnvironment& environment,
+                             const std::array<glm::dvec3, 2>& vectors, const std::array<double, 2>& turns) {
+    const glm::dvec3 base = environment_radiance(variants.base, environment, vectors[0], vectors[1]);
+    glm::dvec3 shift(0.0);
+    for (const MaterialValues& other : variants.others) {
+        shift += glm::abs(environment_radiance(other, environment, vectors[0], vectors[1]) - base);
+    }
+    MaterialValues material = variants.base;
+    for (std::size_t v = 0; v < vectors.size(); ++v) {
+        for (const glm::dvec3& tangent : tangents(vectors[v])) {
+            std::array<glm::dvec3, 2> turned = vectors;
+            const auto radiance_turned = [&](double turn) {
+                turned[v] = glm::normalize(vectors[v] + turn * tangent);
+                find_tangents(material, turned[0]);
+                return environment_radiance(material, environment, turned[0], turned[1]);
+            };
+            const glm::dvec3 plus = radiance_turned(turns[v]);
+            shift += larger_change(base, plus, radiance_turned(-turns[v]));
+        }
+    }
+    return shift;
+}
+
+/// The same for a background: a ray is a sum of three terms, normalised.
+glm::dvec3 background_shift(const PreparedEnvironment& environment, const glm::dvec3& ray) {
+    const glm::dvec3 base = environment.background(ray);
+    glm::dvec3 shift(0.0);
+    for (const glm::dvec3& tangent : tangents(ray)) {
+        const glm::dvec3 turn = 4.0 * unit_roundoff * tangent;
+        shift += larger_change(base, environment.background(ray + turn), environment.background(ray - turn));
+    }
+    return shift;
+}
+
 /// Irradiance of a light before its cone.
 glm::dvec3 power_at(Light light, const std::optional<glm::dvec3>& position) {
     if (light.type == LightType::spot) {
@@ -170,28 +214,49 @@ struct PixelScale {
     glm::dvec3 shift{0.0};
 };
 
-PixelScale pixel_scale(const PreparedFrame& prepared, int x, int y) {
+/// Light level of an environment.
+glm::dvec3 environment_level(const PreparedEnvironment& environment) {
+    return std::numbers::pi * environment.mean();
+}
+
+PixelScale surface_scale(const PreparedFrame& prepared, const Surface& surface, int x, int y) {
     const Frame& frame = prepared.frame();
+    PixelScale scale;
+    const Variants variants = variants_at(prepared, surface, x, y);
+    glm::dvec3 level(0.0);
+    for (const Light& light : frame.lights) {
+        const Incident incident = incident_light(light, surface.position);
+        level += incident.irradiance;
+        const Directions directions{
+            {surface.normal, surface.eye, incident.direction},
+            {vector_roundings(frame) * unit_roundoff, eye_turn(frame, surface), light_turn(frame, light, surface)}};
+        scale.shift += light_shift(variants, light, power_at(light, surface.position), directions);
+    }
+    if (const PreparedEnvironment* environment = prepared.environment()) {
+        level += environment_level(*environment);
+        scale.shift += environment_shift(variants, *environment, {surface.normal, surface.eye},
+                                         {vector_roundings(frame) * unit_roundoff, eye_turn(frame, surface)});
+    }
+    scale.irradiance = largest(level) * surface.coverage;
+    scale.shift *= surface.coverage;
+    return scale;
+}
+
+PixelScale pixel_scale(const PreparedFrame& prepared, int x, int y) {
     PixelScale scale;
     if (!all_finite(prepared, x, y)) {
         return scale;
     }
-    const std::optional<Surface> surface = read_surface(frame, x, y);
-    if (!surface) {
-        return scale;
+    const std::optional<Surface> surface = read_surface(prepared.frame(), x, y);
+    if (surface) {
+        scale = surface_scale(prepared, *surface, x, y);
     }
-    const Variants variants = variants_at(prepared, *surface, x, y);
-    glm::dvec3 level(0.0);
-    for (const Light& light : frame.lights) {
-        const Incident incident = incident_light(light, surface->position);
-        level += incident.irradiance;
-        const Directions directions{
-            {surface->normal, surface->eye, incident.direction},
-            {vector_roundings(frame) * unit_roundoff, eye_turn(frame, *surface), light_turn(frame, light, *surface)}};
-        scale.shift += light_shift(variants, light, power_at(light, surface->position), directions);
+    const PreparedEnvironment* environment = prepared.environment();
+    const double bare = surface ? 1.0 - surface->coverage : 1.0;
+    if (environment != nullptr && environment->bound().background && bare > 0.0) {
+        scale.irradiance += bare * largest(environment_level(*environment));
+        scale.shift += bare * background_shift(*environment, ray_direction(prepared.frame(), x, y));
     }
-    scale.irradiance = largest(level) * surface->coverage;
-    scale.shift *= surface->coverage;
     return scale;
 }
 

@@ -192,7 +192,8 @@ glm::dvec3 indices_of(const glm::dvec3& f0) {
     return {index_of_f0(f0.x), index_of_f0(f0.y), index_of_f0(f0.z)};
 }
 
-void read_lobe(ParameterReader& reader, const BoundLayer& layer, const SpectralMetal& metal, LayerValues& values) {
+void read_lobe(ParameterReader& reader, const BoundLayer& layer, const SpectralMetal& metal,
+               const MetalAmbient* metal_ambient, LayerValues& values) {
     values.specular = layer.specular;
     switch (layer.specular) {
     case SpecularModel::none:
@@ -210,6 +211,7 @@ void read_lobe(ParameterReader& reader, const BoundLayer& layer, const SpectralM
         break;
     case SpecularModel::blinn_phong_spectral:
         values.metal = &metal;
+        values.metal_ambient = metal_ambient;
         values.f0 = metal.f0();
         values.shininess = reader.shininess(layer.shininess);
         break;
@@ -260,11 +262,17 @@ std::vector<PlaneIndex> planes_to_be_finite(const Frame& frame) {
 }
 
 PreparedFrame::PreparedFrame(const Frame& frame) : frame_(&frame), finite_planes_(planes_to_be_finite(frame)) {
+    if (frame.environment) {
+        environment_.emplace(*frame.environment);
+    }
     for (const BoundMaterial& material : frame.materials) {
         std::vector<SpectralMetal>& metals = metals_.emplace_back();
+        auto& ambients = metal_ambients_.emplace_back();
         for (const BoundLayer& layer : material.layers) {
             const bool spectral = layer.specular == SpecularModel::blinn_phong_spectral;
             metals.push_back(spectral ? SpectralMetal(layer.metal) : SpectralMetal());
+            ambients.push_back(spectral && frame.environment ? std::make_shared<const MetalAmbient>(metals.back())
+                                                             : nullptr);
         }
     }
 }
@@ -285,6 +293,10 @@ bool all_finite(const PreparedFrame& prepared, int x, int y) {
     }
     const double depth = value_at(frame, frame.roles.depth, x, y);
     return std::isfinite(depth) || depth > 0.0; // NaN compares false
+}
+
+glm::dvec3 ray_direction(const Frame& frame, int x, int y) {
+    return glm::normalize(pixel_ray(frame.view, x, y).direction);
 }
 
 std::optional<Surface> read_surface(const Frame& frame, int x, int y) {
@@ -316,11 +328,14 @@ MaterialValues read_material(const PreparedFrame& prepared, const Surface& surfa
     MaterialValues values;
     values.fresnel = material.fresnel;
     values.absorption = material.absorption;
+    values.absorption_ibl = material.absorption_ibl;
+    values.transmittance_ibl = material.transmittance_ibl;
+    values.ambient = material.ambient;
     values.diffuse = material.diffuse;
     values.resize(material.layers.size());
     for (std::size_t k = 0; k < material.layers.size(); ++k) {
         LayerValues& layer = values.layers()[k];
-        read_lobe(reader, material.layers[k], prepared.metal(index, k), layer);
+        read_lobe(reader, material.layers[k], prepared.metal(index, k), prepared.metal_ambient(index, k), layer);
         if (material.absorption != AbsorptionModel::none) {
             layer.absorption = reader.in_range(material.layers[k].absorption, 0.0, unbounded);
         }

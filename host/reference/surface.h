@@ -2,10 +2,13 @@
 #pragma once
 
 #include "host/gbuffer/frame.h"
+#include "host/reference/ambient_brdf.h"
+#include "host/reference/environment.h"
 #include "host/reference/material_values.h"
 
 #include <glm/glm.hpp>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,15 +39,26 @@ class PreparedFrame {
     [[nodiscard]] const SpectralMetal& metal(std::size_t material, std::size_t layer) const {
         return metals_[material][layer];
     }
+    /// The same under an environment; null without one.
+    [[nodiscard]] const MetalAmbient* metal_ambient(std::size_t material, std::size_t layer) const {
+        return metal_ambients_[material][layer].get();
+    }
+    /// Null if the frame has none.
+    [[nodiscard]] const PreparedEnvironment* environment() const { return environment_ ? &*environment_ : nullptr; }
 
   private:
     const Frame* frame_;
     std::vector<PlaneIndex> finite_planes_;
     std::vector<std::vector<SpectralMetal>> metals_; ///< per material and layer
+    std::vector<std::vector<std::shared_ptr<const MetalAmbient>>> metal_ambients_;
+    std::optional<PreparedEnvironment> environment_;
 };
 
 /// Rule 1.
 [[nodiscard]] bool all_finite(const PreparedFrame& prepared, int x, int y);
+
+/// Direction of the pixel's ray, unit. The view must have rays.
+[[nodiscard]] glm::dvec3 ray_direction(const Frame& frame, int x, int y);
 
 /// Rules 2 to 5 and 7 for a pixel that passed rule 1; none where there is no surface.
 [[nodiscard]] std::optional<Surface> read_surface(const Frame& frame, int x, int y);

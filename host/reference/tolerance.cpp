@@ -23,13 +23,23 @@ double relative_tolerance(const BoundMaterial& material) {
 
 } // namespace
 
-Tolerance default_tolerance(const BoundMaterial& material) {
+Tolerance default_tolerance(const BoundMaterial& material, bool environment) {
+    if (environment) {
+        return {.rel = 1e-4, .abs = 0.0, .per_irradiance = 1e-6, .per_roundoff = 3.0, .percentile = 99.9, .hard = 4.0};
+    }
     return {.rel = relative_tolerance(material),
             .abs = 0.0,
             .per_irradiance = 3e-7,
             .per_roundoff = 3.0,
             .percentile = 99.99,
             .hard = 4.0};
+}
+
+Tolerance background_tolerance(bool background) {
+    if (!background) {
+        return Tolerance::plain(0.0, 0.0, 100.0);
+    }
+    return {.rel = 1e-5, .abs = 0.0, .per_irradiance = 3e-7, .per_roundoff = 3.0, .percentile = 99.9, .hard = 4.0};
 }
 
 } // namespace clshade::reference
