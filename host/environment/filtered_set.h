@@ -3,10 +3,12 @@
 #pragma once
 
 #include "host/environment/filter_layout.h"
+#include "host/scene/scene.h"
 
 #include <glm/glm.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct FilteredSet {
     std::vector<float> irradiance;  ///< E/pi
     std::array<glm::dvec3, 9> sh{}; ///< radiance
     glm::dvec3 mean{0.0};           ///< of the picture's radiance over the sphere
+    std::optional<UpAxis> up;       ///< the picture's: LatLong::up
 };
 
 /// scale and bias interleaved, in the order of filter_layout.h. Independent of the environment.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace clshade {
@@ -32,6 +33,17 @@ void check_background(const Frame& frame, const Environment& environment, const 
                                     "fov_x_degrees, orthographic_height), or set background = false in [output]",
                                     frame.file));
     }
+}
+
+/// What the scene says, else what the picture says of itself, else z.
+UpAxis up_axis(const Environment& environment, const LatLong* image, const FilteredSet* maps) {
+    std::optional<UpAxis> of_picture;
+    if (image != nullptr) {
+        of_picture = image->up;
+    } else if (maps != nullptr) {
+        of_picture = maps->up;
+    }
+    return environment.up.value_or(of_picture.value_or(UpAxis::z));
 }
 
 } // namespace
@@ -65,9 +77,7 @@ void attach_environment(Frame& frame, const Scene& scene, std::shared_ptr<const 
         bound.world_to_image =
             world_to_image(UpAxis::y, environment.rotation) * glm::transpose(frame.view.camera_to_world);
     } else {
-        const std::optional<UpAxis> of_picture = image ? image->up : std::nullopt;
-        bound.world_to_image =
-            world_to_image(environment.up.value_or(of_picture.value_or(UpAxis::z)), environment.rotation);
+        bound.world_to_image = world_to_image(up_axis(environment, image.get(), maps.get()), environment.rotation);
     }
     bound.intensity = environment.intensity;
     bound.diffuse = environment.diffuse;

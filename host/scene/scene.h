@@ -240,14 +240,14 @@ struct Light {
 
 /// Light from all around: [environment].
 struct Environment {
-    /// As written, relative to the scene file: a lat-long .hdr or .exr, or a folder that `clshade prefilter` wrote.
-    /// Empty: the built-in studio.
+    /// As written, relative to the scene file (environment_path): a lat-long .hdr or .exr, or a folder that `clshade
+    /// prefilter` wrote. Empty: the built-in studio.
     std::string image;
     glm::dvec3 intensity{1.0}; ///< 0 or more; multiplies the picture
     std::optional<UpAxis> up;  ///< absent: what the picture says of itself, else z
     double rotation = 0.0;     ///< radians, counter-clockwise about the up axis
     AmbientSource diffuse = AmbientSource::sh2;
-    /// The studio of the default scene: its frame is the camera's (+X right, +Y up, looks along -Z).
+    /// The studio of the default scene: its frame is the camera's (+X right, +Y up, looks along -Z), `up` has no say.
     bool in_camera_space = false;
     SourceLocation where;
 };

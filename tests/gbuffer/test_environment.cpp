@@ -163,9 +163,21 @@ TEST(AttachEnvironment, UpIsTheScenesElseThePicturesElseZ) {
     EXPECT_EQ(attached_matrix(scene, UpAxis::y), z);
     scene.environment->up = UpAxis::y;
     EXPECT_EQ(attached_matrix(scene, UpAxis::z), y);
-    Frame frame;
-    attach_environment(frame, scene, nullptr, std::make_shared<const FilteredSet>()); // a set
-    EXPECT_EQ(frame.environment->world_to_image, y);
+}
+
+TEST(AttachEnvironment, OfASetUpIsTheScenesElseTheSetsElseZ) {
+    Scene scene = scene_with_environment();
+    const auto matrix_of = [&](std::optional<UpAxis> up_of_set) {
+        FilteredSet set;
+        set.up = up_of_set;
+        Frame frame; // needs no rays
+        attach_environment(frame, scene, nullptr, std::make_shared<const FilteredSet>(set));
+        return frame.environment.value().world_to_image;
+    };
+    EXPECT_EQ(matrix_of(std::nullopt), world_to_image(UpAxis::z, 0.0));
+    EXPECT_EQ(matrix_of(UpAxis::y), world_to_image(UpAxis::y, 0.0));
+    scene.environment->up = UpAxis::z;
+    EXPECT_EQ(matrix_of(UpAxis::y), world_to_image(UpAxis::z, 0.0));
 }
 
 TEST(AttachEnvironment, TheStudioTurnsWithTheCamera) {

@@ -11,7 +11,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The example of the public interface, without what a later release adds.
+/// The example of the public interface, and a little more.
 constexpr std::string_view full_example = R"(version = 1
 units = "metres"
 
@@ -48,6 +48,13 @@ type = "point"
 position = [1, 2, 3]
 intensity = 5
 color = 0.5
+
+[environment]
+image = "studio.hdr"
+intensity = 1.0
+up = "z"
+rotation_degrees = 0.0
+diffuse = "sh2"
 
 [output]
 background = false
@@ -99,6 +106,15 @@ TEST(Scene, ReadsLights) {
     EXPECT_EQ(scene.lights[2].name, "light3"); // named by place
     EXPECT_EQ(scene.lights[2].type, LightType::point);
     EXPECT_EQ(scene.lights[2].power, glm::dvec3(2.5)); // a grey colour is one number
+}
+
+TEST(Scene, ReadsTheEnvironment) {
+    const Scene scene = parse(full_example);
+    ASSERT_TRUE(scene.environment.has_value());
+    EXPECT_EQ(scene.environment->image, "studio.hdr");
+    EXPECT_EQ(scene.environment->up, UpAxis::z);
+    EXPECT_EQ(scene.environment->where.line, 38);
+    EXPECT_FALSE(scene.background);
 }
 
 TEST(Scene, ReadsMaterials) {
