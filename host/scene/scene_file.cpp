@@ -25,17 +25,21 @@ constexpr std::array<std::string_view, 8> scene_keys{"version",     "units",  "c
 /// MiB. Far beyond any scene written by hand or by a script; keeps --scene /dev/zero from eating the memory.
 constexpr std::size_t largest_file = 16;
 
-/// Key over the left shoulder, slightly warm, and the built-in studio. Levels: the studio's mean radiance is near 0.5,
-/// so that a grey (0.5) surface that faces the key takes about 0.25 from the one and 0.3 from the other. The direction
-/// is in camera space.
-constexpr std::string_view default_scene_text = R"(version = 1
+/// Key over the left shoulder, slightly warm; its direction is in camera space.
+constexpr std::string_view key_text = R"(version = 1
 [[light]]
 name = "key"
 type = "distant"
 direction = [0.45, -0.55, -0.70]
-irradiance = 2.0
+irradiance = 1.5
 color = [1.0, 0.96, 0.90]
-[environment]
+)";
+
+/// Levels: towards the key the studio's irradiance is some 2.6 times that of its mean radiance of 0.5, since its
+/// largest soft box stands there. At half strength it gives a grey (0.5) surface that faces the key about 0.3, the key
+/// 0.23.
+constexpr std::string_view studio_text = R"([environment]
+intensity = 0.5
 )";
 
 void check_version(const TomlTable& root, const std::string& file) {
@@ -136,7 +140,13 @@ Scene read_scene(const std::filesystem::path& file, std::span<const std::string>
 }
 
 Scene default_scene(std::span<const std::string> overrides, std::string_view model) {
-    Scene scene = read_tree(parse_toml(default_scene_text, "default scene"), "", overrides, model);
+    const auto read = [&](const std::string& text) {
+        return read_tree(parse_toml(text, "default scene"), "", overrides, model);
+    };
+    Scene scene = read(fmt::format("{}{}", key_text, studio_text));
+    if (scene.environment && !scene.environment->image.empty()) {
+        scene = read(std::string(key_text)); // what is chosen for the studio is not for a picture
+    }
     for (Light& light : scene.lights) {
         light.in_camera_space = true;
         light.where.file.clear();

@@ -252,6 +252,8 @@ TEST(DefaultScene, OnlyTheStudioTurnsWithTheCamera) {
     };
     EXPECT_TRUE(environment_of("environment.rotation_degrees=20").in_camera_space);
     EXPECT_FALSE(environment_of("environment.image=workshop.hdr").in_camera_space);
+    EXPECT_EQ(environment_of("environment.image=workshop.hdr").intensity, glm::dvec3(1.0)); // not the studio's
+    EXPECT_EQ(environment_of("environment.intensity=3").intensity, glm::dvec3(3.0));
     EXPECT_FALSE(environment_of("environment.up=z").in_camera_space);
     EXPECT_TRUE(default_scene(std::vector<std::string>{"output.background=true"}, {}).background);
     EXPECT_TRUE(default_scene(std::vector<std::string>{"light=[]"}, {}).lights.empty()); // the studio is light enough
