@@ -16,15 +16,23 @@ static inline real normaliser_linear(real n) {
 }
 
 // (1 - E.H)^5: the weight of Schlick's Fresnel, F = F0 + (1 - F0) weight.
-static inline real schlick_weight(incidence i) {
-    const real w = 1.0f - 0.5f * i.two_eh;
+static inline real schlick_weight_of(real cosine) {
+    const real w = 1.0f - cosine;
     const real w2 = w * w;
     return w2 * w2 * w;
 }
 
+static inline real schlick_weight(incidence i) {
+    return schlick_weight_of(0.5f * i.two_eh);
+}
+
 // Section 2: the spherical-Gaussian stand-in for that weight, 2^((-5.55473 E.H - 6.98316) E.H).
+static inline real schlick_weight_gaussian_of(real two_cosines) {
+    return exp2_in_range(two_cosines * fma(two_cosines, splat(-0.25f * 5.55473f), splat(-0.5f * 6.98316f)));
+}
+
 static inline real schlick_weight_gaussian(incidence i) {
-    return exp2_in_range(i.two_eh * fma(i.two_eh, splat(-0.25f * 5.55473f), splat(-0.5f * 6.98316f)));
+    return schlick_weight_gaussian_of(i.two_eh);
 }
 
 // (N.H)^n = 2^(n/2 log2 (N.H)^2), which is 1 for n = 0 whatever N.H is. The specular part is this times normaliser,

@@ -28,9 +28,18 @@
 #define HAS_POINT_LIGHTS 0
 #define HAS_SPOT_LIGHTS 0
 
+// Light from all around: whether there is any, what diffuse surfaces see of it, whether it shows behind the objects.
+#define AMBIENT_SH2 0
+#define AMBIENT_SH3 1
+#define AMBIENT_MAP 2
+#define HAS_ENVIRONMENT 0
+#define AMBIENT_SOURCE AMBIENT_SH2
+#define HAS_BACKGROUND 0
+
 // First output plane of each group beside R, G, B, A (planes 0 to 3).
 #define OUTPUT_DIFFUSE -1
 #define OUTPUT_SPECULAR -1
 #define OUTPUT_LIGHTS -1
+#define OUTPUT_ENVIRONMENT -1
 
 #endif

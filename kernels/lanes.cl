@@ -13,6 +13,7 @@ typedef int integer;
 #define AS_REAL as_float
 #define AS_INTEGER as_int
 #define LANES_FROM_INTEGER convert_float
+#define INTEGER_FROM_LANES convert_int // towards zero
 #define LANE_INDEX 0.0f
 #elif LANES == 4
 typedef float4 real;
@@ -20,6 +21,7 @@ typedef int4 integer;
 #define AS_REAL as_float4
 #define AS_INTEGER as_int4
 #define LANES_FROM_INTEGER convert_float4
+#define INTEGER_FROM_LANES convert_int4 // towards zero
 #define LANE_INDEX (float4)(0, 1, 2, 3)
 #elif LANES == 8
 typedef float8 real;
@@ -27,6 +29,7 @@ typedef int8 integer;
 #define AS_REAL as_float8
 #define AS_INTEGER as_int8
 #define LANES_FROM_INTEGER convert_float8
+#define INTEGER_FROM_LANES convert_int8 // towards zero
 #define LANE_INDEX (float8)(0, 1, 2, 3, 4, 5, 6, 7)
 #elif LANES == 16
 typedef float16 real;
@@ -34,6 +37,7 @@ typedef int16 integer;
 #define AS_REAL as_float16
 #define AS_INTEGER as_int16
 #define LANES_FROM_INTEGER convert_float16
+#define INTEGER_FROM_LANES convert_int16 // towards zero
 #define LANE_INDEX (float16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #else
 #error "LANES must be 1, 4, 8 or 16"

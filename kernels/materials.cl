@@ -6,6 +6,7 @@
 #include "anisotropic.cl"
 #include "blinn_phong.cl"
 #include "diffuse.cl"
+#include "environment.cl"
 #include "layers.cl"
 #include "parameters.cl"
 #include "radiance.cl"

@@ -34,16 +34,9 @@ static inline real exp2_clamped(real x) {
     return exp2_in_range(larger(x, splat(SMALLEST_EXPONENT)));
 }
 
-// log2 of a squared cosine, from the squared cosine and, near 1 where that has lost its low digits, the squared sine
-// (models.md section 14: log1p(-sin^2) keeps high exponents exact). 0 <= cos2 <= 1; cos2 = 0 gives about -127.
-// Relative error of the polynomial 3e-8.
-static inline real log2_cosine_squared(real cos2, real sin2) {
-    const integer sqrt_half = (integer)(0x3f3504f3);
-    const integer bits = AS_INTEGER(cos2) - sqrt_half;
-    const integer exponent = bits >> 23;
-    const real mantissa = AS_REAL((bits & (integer)(0x007fffff)) + sqrt_half);
+// exponent + log2(1 - t), for a mantissa 1 - t between sqrt(1/2) and sqrt(2). Relative error of the polynomial 3e-8.
+static inline real log2_from(integer exponent, real t) {
     // log(1 - t) = -(t + t^2 p(t))
-    const real t = choose(exponent >= (integer)(0), sin2, 1.0f - mantissa);
     const real t2 = t * t;
     const real p01 = fma(t, splat(0.333339512f), splat(0.499999911f));
     const real p23 = fma(t, splat(0.199620724f), splat(0.250017554f));
@@ -52,6 +45,23 @@ static inline real log2_cosine_squared(real cos2, real sin2) {
     const real p = fma(fma(p67, t2, p45), t2 * t2, fma(p23, t2, p01));
     const real minus_log = fma(p, t2, t);
     return fma(minus_log, splat(-1.44269504f), LANES_FROM_INTEGER(exponent));
+}
+
+// log2 of a squared cosine, from the squared cosine and, near 1 where that has lost its low digits, the squared sine
+// (models.md section 14: log1p(-sin^2) keeps high exponents exact). 0 <= cos2 <= 1; cos2 = 0 gives about -127.
+static inline real log2_cosine_squared(real cos2, real sin2) {
+    const integer sqrt_half = (integer)(0x3f3504f3);
+    const integer bits = AS_INTEGER(cos2) - sqrt_half;
+    const integer exponent = bits >> 23;
+    const real mantissa = AS_REAL((bits & (integer)(0x007fffff)) + sqrt_half);
+    return log2_from(exponent, choose(exponent >= (integer)(0), sin2, 1.0f - mantissa));
+}
+
+// log2 x, x > 0 and not denormal.
+static inline real log2_positive(real x) {
+    const integer sqrt_half = (integer)(0x3f3504f3);
+    const integer bits = AS_INTEGER(x) - sqrt_half;
+    return log2_from(bits >> 23, 1.0f - AS_REAL((bits & (integer)(0x007fffff)) + sqrt_half));
 }
 
 // Division and square root of 16 lanes occupy one port for 10 to 24 cycles each, which would be a third of a one-light

@@ -12,6 +12,9 @@ typedef struct {
 #if OUTPUT_SPECULAR >= 0
     rgb specular;
 #endif
+#if OUTPUT_ENVIRONMENT >= 0
+    rgb environment;
+#endif
     mask clamped;       // a parameter was out of range
     mask fractional_id; // the material id is no whole number
     mask no_tangent;    // an anisotropic material without a usable tangent
@@ -32,6 +35,9 @@ static inline radiance no_radiance(void) {
 #endif
 #if OUTPUT_SPECULAR >= 0
     sum.specular = sum.total;
+#endif
+#if OUTPUT_ENVIRONMENT >= 0
+    sum.environment = sum.total;
 #endif
     sum.clamped = FALSE_MASK;
     sum.fractional_id = FALSE_MASK;
@@ -60,9 +66,28 @@ static inline radiance choose_radiance(mask m, radiance a, radiance b) {
 #if OUTPUT_SPECULAR >= 0
     sum.specular = choose_rgb(m, a.specular, b.specular);
 #endif
+#if OUTPUT_ENVIRONMENT >= 0
+    sum.environment = choose_rgb(m, a.environment, b.environment);
+#endif
     sum.clamped = (m & a.clamped) | (negated(m) & b.clamped);
     sum.fractional_id = (m & a.fractional_id) | (negated(m) & b.fractional_id);
     sum.no_tangent = (m & a.no_tangent) | (negated(m) & b.no_tangent);
+    return sum;
+}
+
+// The light of an environment added.
+static inline radiance add_environment(radiance sum, rgb diffuse, rgb specular) {
+    const rgb own = add_rgb(diffuse, specular);
+    sum.total = add_rgb(sum.total, own);
+#if OUTPUT_DIFFUSE >= 0
+    sum.diffuse = add_rgb(sum.diffuse, diffuse);
+#endif
+#if OUTPUT_SPECULAR >= 0
+    sum.specular = add_rgb(sum.specular, specular);
+#endif
+#if OUTPUT_ENVIRONMENT >= 0
+    sum.environment = own;
+#endif
     return sum;
 }
 

@@ -38,6 +38,18 @@ typedef struct FrameConstants {
     int unused[2];
 } FrameConstants;
 
+/* Light from all around (pixel rule 11). The intensity is multiplied in already, here and in the maps. */
+typedef struct EnvironmentConstants {
+    float world_to_image[12]; /* three rows of four */
+    float band0[4];           /* E/pi of SH band 0 */
+    float band1[3][4];        /* band1[0] N.x + band1[1] N.y + band1[2] N.z, world space */
+    float band2[6][4];        /* factors of x^2, y^2, z^2, xy, yz, zx, world space */
+    float intensity[4];       /* for the picture behind the objects, which is kept as it is */
+    int picture_width;
+    int picture_height;
+    int unused[2];
+} EnvironmentConstants;
+
 /* Counters written by the kernel, in this order. */
 #define COUNT_NONFINITE 0
 #define COUNT_CLAMPED 1

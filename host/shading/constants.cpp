@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstddef>
 #include <type_traits>
 
@@ -14,6 +15,8 @@ static_assert(std::is_trivially_copyable_v<LightConstants> && sizeof(LightConsta
 static_assert(offsetof(LightConstants, direction) == 16 && offsetof(LightConstants, power) == 64);
 static_assert(std::is_trivially_copyable_v<FrameConstants> && sizeof(FrameConstants) == 208);
 static_assert(offsetof(FrameConstants, camera_to_world) == 48 && offsetof(FrameConstants, light_count) == 192);
+static_assert(std::is_trivially_copyable_v<EnvironmentConstants> && sizeof(EnvironmentConstants) == 240);
+static_assert(offsetof(EnvironmentConstants, band1) == 64 && offsetof(EnvironmentConstants, intensity) == 208);
 
 namespace {
 
@@ -92,6 +95,51 @@ std::vector<LightConstants> light_constants(const Frame& frame) {
     }
     if (constants.empty()) {
         constants.emplace_back();
+    }
+    return constants;
+}
+
+EnvironmentConstants environment_constants(const BoundEnvironment& environment) {
+    // models.md section 6: E/pi = sum_l c_l sum_m L_lm Y_lm, c = 1, 2/3, 1/4.
+    constexpr double y0 = 0.28209479177387814;
+    constexpr double y1 = 2.0 / 3.0 * 0.4886025119029199;
+    constexpr double y2_product = 0.25 * 1.0925484305920792;
+    constexpr double y2_square = 0.25 * 0.31539156525252005;
+    constexpr double y2_difference = 0.25 * 0.5462742152960396;
+    const std::array<glm::dvec3, 9>& sh = environment.maps->sh;
+    const glm::dmat3 turn = glm::transpose(environment.world_to_image);
+
+    EnvironmentConstants constants{};
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            constants.world_to_image[4 * row + column] = static_cast<float>(environment.world_to_image[column][row]);
+        }
+    }
+    put(constants.intensity, environment.intensity);
+    put(constants.band0, environment.intensity * sh[0] * y0);
+    for (int c = 0; c < 3; ++c) {
+        const double intensity = environment.intensity[c];
+        const glm::dvec3 linear = turn * (y1 * intensity * glm::dvec3(sh[3][c], sh[1][c], sh[2][c]));
+        for (int axis = 0; axis < 3; ++axis) {
+            constants.band1[axis][c] = static_cast<float>(linear[axis]);
+        }
+        // The quadratic form as a symmetric matrix; 3 z^2 - 1 = 2 z^2 - x^2 - y^2 for unit vectors.
+        const double xy = 0.5 * y2_product * sh[4][c];
+        const double yz = 0.5 * y2_product * sh[5][c];
+        const double zx = 0.5 * y2_product * sh[7][c];
+        const double zz = y2_square * sh[6][c];
+        const double difference = y2_difference * sh[8][c];
+        const glm::dmat3 form(difference - zz, xy, zx, xy, -difference - zz, yz, zx, yz, 2.0 * zz);
+        const glm::dmat3 world = intensity * (turn * form * environment.world_to_image);
+        const std::array<double, 6> terms = {world[0][0],       world[1][1],       world[2][2],
+                                             2.0 * world[0][1], 2.0 * world[1][2], 2.0 * world[2][0]};
+        for (std::size_t k = 0; k < terms.size(); ++k) {
+            constants.band2[k][c] = static_cast<float>(terms[k]);
+        }
+    }
+    if (environment.image) {
+        constants.picture_width = environment.image->width;
+        constants.picture_height = environment.image->height;
     }
     return constants;
 }

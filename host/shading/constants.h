@@ -13,4 +13,7 @@ namespace clshade {
 /// buffer.
 [[nodiscard]] std::vector<LightConstants> light_constants(const Frame& frame);
 
+/// SH and matrix of the frame's environment, whose maps there must be.
+[[nodiscard]] EnvironmentConstants environment_constants(const BoundEnvironment& environment);
+
 } // namespace clshade

@@ -77,6 +77,10 @@ std::string frame_layout_source(const Frame& frame, const AovSelection& aovs) {
     text += "\n";
     define("HAS_POINT_LIGHTS", has_light(frame, LightType::point) ? 1 : 0);
     define("HAS_SPOT_LIGHTS", has_light(frame, LightType::spot) ? 1 : 0);
+    text += "\n#define AMBIENT_SH2 0\n#define AMBIENT_SH3 1\n#define AMBIENT_MAP 2\n";
+    define("HAS_ENVIRONMENT", frame.environment ? 1 : 0);
+    define("AMBIENT_SOURCE", frame.environment ? static_cast<int>(frame.environment->diffuse) : 0);
+    define("HAS_BACKGROUND", frame.environment && frame.environment->background ? 1 : 0);
     text += "\n";
     int next = 4; // after R, G, B, A; the order of output_plane_names
     const auto define_output = [&](std::string_view name, bool wanted, int planes) {
@@ -86,6 +90,7 @@ std::string frame_layout_source(const Frame& frame, const AovSelection& aovs) {
     define_output("OUTPUT_DIFFUSE", aovs.diffuse, 3);
     define_output("OUTPUT_SPECULAR", aovs.specular, 3);
     define_output("OUTPUT_LIGHTS", aovs.lights, 3 * static_cast<int>(frame.lights.size()));
+    define_output("OUTPUT_ENVIRONMENT", aovs.environment && frame.environment, 3);
     return text + "\n#endif\n";
 }
 
@@ -105,6 +110,9 @@ std::string kernel_key(const Frame& frame) {
         if (count > 0) {
             lights.push_back(fmt::format("{}{}", name, count));
         }
+    }
+    if (frame.environment) {
+        lights.emplace_back("environment");
     }
     return fmt::format("{}.{}", key, lights.empty() ? "unlit" : fmt::format("{}", fmt::join(lights, "_")));
 }

@@ -56,4 +56,23 @@ glm::dvec3 folded_gain(const glm::dvec3& r, const glm::dvec3& amplitude, const g
     return gain;
 }
 
+glm::dvec3 folded_approximate_absorption(const glm::dvec3& depth) {
+    glm::dvec3 a;
+    for (int c = 0; c < 3; ++c) {
+        a[c] = -0.5 * std::expm1(-2.0 * depth[c]);
+    }
+    return a;
+}
+
+glm::dvec3 folded_diffuse_transmittance(const glm::dvec3& absorption) {
+    glm::dvec3 left(1.0);
+    for (int c = 0; c < 3; ++c) {
+        const double a = absorption[c];
+        if (a > 0.0) { // 2 E_3 = e^-a (1 - a) + a^2 E_1, which cancels to nothing for large a
+            left[c] = std::max(0.0, std::exp(-a) * (1.0 - a) - a * a * std::expint(-a));
+        }
+    }
+    return left;
+}
+
 } // namespace clshade

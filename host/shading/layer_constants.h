@@ -25,4 +25,9 @@ namespace clshade {
 [[nodiscard]] glm::dvec3 folded_gain(const glm::dvec3& r, const glm::dvec3& amplitude, const glm::dvec3& above,
                                      bool is_base);
 
+/// a' = (1 - exp(-2 alpha d))/2 of alpha d (models.md section 5).
+[[nodiscard]] glm::dvec3 folded_approximate_absorption(const glm::dvec3& depth);
+/// 2 E_3(a'): what an absorbing layer leaves of diffuse light on its way down (models.md section 7).
+[[nodiscard]] glm::dvec3 folded_diffuse_transmittance(const glm::dvec3& absorption);
+
 } // namespace clshade

@@ -1,5 +1,7 @@
 #include "host/shading/material_code.h"
 
+#include "host/shading/environment_code.h"
+#include "host/shading/environment_layout.h"
 #include "host/shading/parameter_code.h"
 #include "host/shading/stack_code.h"
 
@@ -161,8 +163,19 @@ std::string claim(const BoundMaterial& material, bool by_id) {
     return tests.empty() ? "FALSE_MASK" : fmt::format("{}", fmt::join(tests, " | "));
 }
 
+/// Parameters and arguments that a material's function has for the environment.
+constexpr std::string_view environment_parameters = ", surroundings a, environment around";
+constexpr std::string_view environment_arguments = ", a, around";
+
+std::string environment_function(const EnvironmentCode& code, std::size_t index) {
+    return fmt::format("// Adds the light of the environment.\n"
+                       "static inline radiance surround_{0}(radiance sum, material_{0} m, surface s, surroundings a,\n"
+                       "    environment around) {{\n{1}    return add_environment(sum, diffuse, specular);\n}}\n\n",
+                       index, code.text());
+}
+
 /// The function that takes a material from planes to radiance. One light is met by the caller, once for all materials.
-std::string shade_material_function(std::size_t index, bool one_light) {
+std::string shade_material_function(std::size_t index, bool one_light, bool surrounded) {
     const std::string own =
         fmt::format("#if OUTPUT_LIGHTS >= 0\n"
                     "{1}store_light(out, mine, s, {2}, reflect_{0}(m, add_light_{0}(none, m, s, i, e0)));\n#endif\n",
@@ -172,7 +185,8 @@ std::string shade_material_function(std::size_t index, bool one_light) {
                     "static inline radiance shade_material_{}(mask mine, inputs in, surface s, results out,\n"
                     "    __constant const FrameConstants* frame, ",
                     index);
-    text += one_light ? "incidence i, rgb e0) {\n" : "__global const LightConstants* lights) {\n";
+    text += one_light ? "incidence i, rgb e0" : "__global const LightConstants* lights";
+    text += fmt::format("{}) {{\n", surrounded ? environment_parameters : "");
     text += fmt::format("    const material_{0} m = read_material_{0}(in, s, frame);\n"
                         "    const sums_{0} none = {{0}};\n"
                         "    sums_{0} sums = none;\n",
@@ -187,10 +201,13 @@ std::string shade_material_function(std::size_t index, bool one_light) {
                             index) +
                 own + "    }\n";
     }
-    return text + fmt::format("    return reflect_{}(m, sums);\n}}\n\n", index);
+    const std::string_view result =
+        surrounded ? "surround_{0}(reflect_{0}(m, sums), m, s, a, around)" : "reflect_{0}(m, sums)";
+    return text + fmt::format("    return {};\n}}\n\n", fmt::format(fmt::runtime(result), index));
 }
 
-std::string material_functions(const Frame& frame, std::size_t index, std::vector<std::string>& warnings) {
+std::string material_functions(const Frame& frame, std::size_t index, const MapsLayout& maps,
+                               std::vector<std::string>& warnings) {
     const BoundMaterial& material = frame.materials[index];
     const StackCode code(frame, index);
     warnings.insert(warnings.end(), code.warnings().begin(), code.warnings().end());
@@ -199,19 +216,27 @@ std::string material_functions(const Frame& frame, std::size_t index, std::vecto
     for (std::size_t k = 0; k < material.layers.size(); ++k) {
         text += layer_comment(frame, material, k);
     }
-    return text + structs(code, index) + read_function(code, index) + light_function(code, index) +
-           reflect_function(code, index) + shade_material_function(index, frame.lights.size() == 1);
+    text +=
+        structs(code, index) + read_function(code, index) + light_function(code, index) + reflect_function(code, index);
+    if (frame.environment) {
+        text += environment_function(EnvironmentCode(frame, index, code, maps), index);
+    }
+    return text + shade_material_function(index, frame.lights.size() == 1, frame.environment.has_value());
 }
 
 /// Which material each pixel goes to: those with claims in turn, the first for what is left.
 std::string shade_function(const Frame& frame) {
     const bool one_light = frame.lights.size() == 1;
     const bool by_id = frame.materials.size() > 1 && frame.roles.material_id != no_plane;
-    const std::string_view lights = one_light ? "i, e0" : "lights";
+    const std::string lights =
+        fmt::format("{}{}", one_light ? "i, e0" : "lights", frame.environment ? environment_arguments : "");
     CodeBlock body(4);
     if (one_light) {
         body.line("const incidence i = incidence_of(s, lights);");
         body.line("const rgb e0 = irradiance(lights, i);");
+    }
+    if (frame.environment) {
+        body.line("const surroundings a = surroundings_of(around, s);");
     }
     if (frame.materials.size() == 1) {
         body.line(fmt::format("return shade_material_0(s.alive, in, s, out, frame, {});", lights));
@@ -242,8 +267,8 @@ std::string shade_function(const Frame& frame) {
         body.line("return sum;");
     }
     return "static inline radiance shade_materials(inputs in, surface s, results out, __constant const FrameConstants* "
-           "frame,\n                                       __global const LightConstants* lights) {\n" +
-           body.text() + "}\n\n";
+           "frame,\n                                       __global const LightConstants* lights" +
+           std::string(frame.environment ? ", environment around" : "") + ") {\n" + body.text() + "}\n\n";
 }
 
 std::string emission_function(const Frame& frame) {
@@ -267,9 +292,11 @@ MaterialsSource materials_source(const Frame& frame) {
         "planes.\n"
         "#ifndef CLSHADE_MATERIALS_CL\n#define CLSHADE_MATERIALS_CL\n\n"
         "#include \"anisotropic.cl\"\n#include \"blinn_phong.cl\"\n#include \"diffuse.cl\"\n"
+        "#include \"environment.cl\"\n"
         "#include \"layers.cl\"\n#include \"parameters.cl\"\n#include \"radiance.cl\"\n#include \"spectral.cl\"\n\n";
+    const MapsLayout maps = maps_layout(frame);
     for (std::size_t k = 0; k < frame.materials.size(); ++k) {
-        source.text += material_functions(frame, k, source.warnings);
+        source.text += material_functions(frame, k, maps, source.warnings);
     }
     source.text += shade_function(frame) + emission_function(frame) + "\n#endif\n";
     return source;

@@ -2,6 +2,7 @@
 
 #include "host/base/error.h"
 #include "host/shading/constants.h"
+#include "host/shading/environment_maps.h"
 #include "host/shading/frame_layout.h"
 #include "host/shading/material_code.h"
 
@@ -40,13 +41,20 @@ Buffer constant_buffer(Device& device, std::span<const T> values) {
     return buffer;
 }
 
-/// The small buffers every launch takes.
+/// The small buffers every launch takes, and the environment's maps.
 struct Constants {
     Buffer frame;
     Buffer lights;
     Buffer counts;
+    Buffer environment; ///< with maps only
+    std::shared_ptr<const EnvironmentMaps> maps;
 
-    Constants(Device& device, const Frame& source) {
+    Constants(Device& device, const Frame& source, std::shared_ptr<const EnvironmentMaps> environment_maps)
+        : maps(std::move(environment_maps)) {
+        if (maps) {
+            const EnvironmentConstants values = environment_constants(*source.environment);
+            environment = constant_buffer(device, std::span(&values, 1));
+        }
         const FrameConstants view = frame_constants(source);
         frame = constant_buffer(device, std::span(&view, 1));
         const auto light_values = light_constants(source);
@@ -80,6 +88,12 @@ void set_arguments(Kernel& kernel, const Buffer& planes, std::size_t plane_strid
     kernel.set_argument(5, constants.frame);
     kernel.set_argument(6, constants.lights);
     kernel.set_argument(7, constants.counts);
+    if (constants.maps) {
+        kernel.set_argument(8, constants.environment);
+        kernel.set_argument(9, constants.maps->maps());
+        kernel.set_argument(10, constants.maps->ambient());
+        kernel.set_argument(11, constants.maps->picture());
+    }
 }
 
 std::uint64_t frame_bytes(const Frame& frame, std::size_t outputs) {
@@ -101,8 +115,8 @@ PictureMemory::PictureMemory(Device& device, Frame& frame, int outputs)
 
 struct PreparedFrame::State {
     State(Device& device, const Program& built, const Frame& frame, std::vector<std::string> names, int lane_count,
-          std::shared_ptr<PictureMemory> place)
-        : program(built), plane_names(std::move(names)), lanes(lane_count), constants(device, frame),
+          std::shared_ptr<PictureMemory> place, std::shared_ptr<const EnvironmentMaps> maps)
+        : program(built), plane_names(std::move(names)), lanes(lane_count), constants(device, frame, std::move(maps)),
           kernel(built, "shade"), inputs(static_cast<int>(clshade::planes_read(frame).size())), key(kernel_key(frame)),
           bytes(frame_bytes(frame, plane_names.size())), memory(std::move(place)) {
         set_arguments(kernel, memory->plane_buffer, frame.planes.stride(), memory->result_buffer,
@@ -189,7 +203,8 @@ int automatic_lanes(const DeviceInfo& device) {
 
 Shader::Shader(Device& device, SourceSet kernels, ProgramCache cache, ShaderOptions options)
     : device_(&device), kernels_(std::move(kernels)), cache_(std::move(cache)), options_(options),
-      lanes_(options.lanes == 0 ? automatic_lanes(device.info()) : options.lanes) {
+      lanes_(options.lanes == 0 ? automatic_lanes(device.info()) : options.lanes),
+      prefilter_(device, kernels_, cache_, lanes_) {
     constexpr std::array<int, 4> widths = {1, 4, 8, 16};
     if (std::find(widths.begin(), widths.end(), lanes_) == widths.end()) {
         throw UsageError(
@@ -234,8 +249,18 @@ PreparedFrame Shader::prepare(Frame& frame, std::shared_ptr<PictureMemory> memor
         throw std::invalid_argument("a frame's outputs do not fit the picture's memory");
     }
     const Program& program = program_for(frame);
-    return PreparedFrame(
-        std::make_unique<PreparedFrame::State>(*device_, program, frame, std::move(names), lanes_, std::move(memory)));
+    return PreparedFrame(std::make_unique<PreparedFrame::State>(*device_, program, frame, std::move(names), lanes_,
+                                                                std::move(memory), maps_for(frame)));
+}
+
+std::shared_ptr<const EnvironmentMaps> Shader::maps_for(const Frame& frame) {
+    if (!frame.environment) {
+        return nullptr;
+    }
+    if (!maps_ || !maps_->serve(frame)) {
+        maps_ = std::make_shared<const EnvironmentMaps>(*device_, frame, prefilter_);
+    }
+    return maps_;
 }
 
 std::size_t Shader::band_pixels(const Frame& frame, std::size_t outputs) const {
@@ -274,7 +299,7 @@ ShadedImage Shader::shade_in_bands(Frame& frame, std::size_t band) {
     ShadedImage image;
     image.plane_names = output_plane_names(frame, options_.aovs);
     image.planes = PlaneSlab(frame.planes.width(), frame.planes.height(), static_cast<int>(image.plane_names.size()));
-    Constants constants(*device_, frame);
+    Constants constants(*device_, frame, maps_for(frame));
     const auto inputs = static_cast<std::size_t>(frame.planes.count());
     const std::size_t outputs = image.plane_names.size();
     Buffer planes(*device_, inputs * band * sizeof(float), Access::read);

@@ -4,6 +4,7 @@
 #include "host/device/device.h"
 #include "host/device/program.h"
 #include "host/gbuffer/frame.h"
+#include "host/prefilter/prefilter.h"
 
 #include <cstdint>
 #include <map>
@@ -82,6 +83,8 @@ class PreparedFrame {
     std::unique_ptr<State> state_;
 };
 
+class EnvironmentMaps;
+
 /// Builds one program per distinct set of materials, planes, light types, outputs and lanes, and keeps it; frames with
 /// the same ones reuse it. Constants of materials are baked in; lights and the camera are run-time constants.
 class Shader {
@@ -89,7 +92,7 @@ class Shader {
     Shader(Device& device, SourceSet kernels, ProgramCache cache, ShaderOptions options);
 
     /// Shades a frame, in bands where it does not fit the device or the memory limit. Throws RuntimeFailure. The
-    /// result does not depend on bands.
+    /// result does not depend on bands. An environment must have its maps (Prefilter; std::invalid_argument).
     [[nodiscard]] ShadedImage shade(Frame& frame);
     /// For benches: the whole frame in one launch. Throws RuntimeFailure if it does not fit.
     [[nodiscard]] PreparedFrame prepare(Frame& frame);
@@ -102,8 +105,13 @@ class Shader {
     [[nodiscard]] SourceSet sources(const Frame& frame) const;
     [[nodiscard]] std::string build_options() const;
     [[nodiscard]] int lanes() const { return lanes_; }
+    /// On the shader's device, with its kernels, cache and lanes.
+    [[nodiscard]] Prefilter& prefilter() { return prefilter_; }
 
   private:
+    /// The environment's maps on the device, made anew where those at hand are of another one; null without
+    /// environment.
+    [[nodiscard]] std::shared_ptr<const EnvironmentMaps> maps_for(const Frame& frame);
     [[nodiscard]] const Program& program_for(const Frame& frame);
     /// Pixels of one launch: all of them, or as many as the device and --max-mem can hold.
     [[nodiscard]] std::size_t band_pixels(const Frame& frame, std::size_t outputs) const;
@@ -115,6 +123,8 @@ class Shader {
     ShaderOptions options_;
     int lanes_;
     std::map<std::string, Program> programs_; ///< by generated source and options
+    Prefilter prefilter_;
+    std::shared_ptr<const EnvironmentMaps> maps_;
 };
 
 /// The vector width `--lanes auto` stands for: what the device prefers, 1 on GPUs.

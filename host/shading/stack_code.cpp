@@ -71,12 +71,21 @@ std::string StackCode::name(std::string_view what, std::size_t k) const {
 
 void StackCode::add_layer(std::size_t k) {
     const BoundLayer& layer = material_->layers[k];
+    LayerFacts& facts = layers_.emplace_back();
+    facts.above = medium_;
+    facts.inside = inside_;
+    facts.up = up_;
     if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
         tangents_ = setup_.declare("tangent_frame", name("tangents", k),
                                    fmt::format("tangent_frame_of(s.n, {})", reader_.tangent(layer.tangent)));
         no_tangent_.push_back(tangents_ + ".missing");
+        facts.tangents = tangents_;
     }
     const Interface interface = is_exact() ? exact_interface(k) : constant_interface(k);
+    facts.present = interface.present;
+    facts.r = interface.r;
+    facts.gain = interface.gain;
+    facts.below = below_;
     if (interface.present) {
         add_lobe(k, interface);
     }
@@ -112,6 +121,7 @@ bool StackCode::read_f0(std::size_t k, Value& f0) {
         return is_base(k) || !all_zero(f0);
     }
     f0 = reader_.reflectance(layer.f0, name("f0", k));
+    layers_[k].f0 = f0;
     if (!is_base(k) && all_zero(f0)) {
         return false;
     }
@@ -217,6 +227,8 @@ Value StackCode::metal_call(std::size_t k, const MetalSurroundings& where) {
                                   float_literal(coefficients[i].y), float_literal(coefficients[i].z));
     }
     functions_ += "    return clamp_rgb(p, 0.0f, 1.0f);\n}\n\n";
+    layers_[k].metal = function;
+    layers_[k].reflecting = reflecting(k);
     const Value c = shared("c", "0.5f * i.two_eh");
     return loop_.name(name("fresnel", k), product(Value::rgb(fmt::format("{}({})", function, c.text)), reflecting(k)));
 }
@@ -228,12 +240,15 @@ void StackCode::add_lobe(std::size_t k, const Interface& interface) {
     if (layer.specular == SpecularModel::blinn_phong_anisotropic) {
         const Value u = reader_.shininess(layer.shininess_u, name("shininess_u", k));
         const Value v = reader_.shininess(layer.shininess_v, name("shininess_v", k));
+        layers_[k].shininess_u = u;
+        layers_[k].shininess_v = v;
         normaliser = u.known && v.known ? Value::of(folded_normaliser_anisotropic(u.number.x, v.number.x))
                                         : call("normaliser_anisotropic", {u, v});
         half_exponent =
             Value::real(fmt::format("anisotropic_half_exponent(i, {}, {}, {})", tangents_, real_text(u), real_text(v)));
     } else {
         const Value n = reader_.shininess(layer.shininess, name("shininess", k));
+        layers_[k].shininess = n;
         normaliser = normaliser_value(n, is_exact() || layer.specular == SpecularModel::blinn_phong_exact);
         half_exponent = setup_.name(name("half_shininess", k), product(Value::of(0.5), n));
     }
@@ -300,6 +315,7 @@ void StackCode::absorb(std::size_t k) {
     }
     const std::string variable = name("absorption", k);
     const Value read = reader_.absorption(material_->layers[k].absorption, variable);
+    layers_[k].absorption = read;
     if (all_zero(read)) {
         return;
     }
@@ -340,8 +356,10 @@ void StackCode::add_base_diffuse(const Interface& base) {
         return;
     }
     const Value albedo = reader_.reflectance(material_->albedo, "albedo");
+    diffuse_facts_.albedo = albedo;
     if (!code.terms_type.empty()) {
         const Value n = reader_.shininess(material_->diffuse_shininess, "diffuse_shininess");
+        diffuse_facts_.shininess = n;
         setup_.declare(code.terms_type, "terms", fmt::format("{}({})", code.terms_function, real_text(n)));
     }
     Passage left = diffuse_;

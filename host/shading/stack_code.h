@@ -26,6 +26,31 @@ struct LightSum {
     std::vector<Term> terms;
 };
 
+/// What a stack's code knows of a layer, for the light of an environment. Values hold once `setup` has run.
+struct LayerFacts {
+    bool present = false;              ///< it has an interface
+    Value f0 = Value::of(0.0);         ///< in air
+    Value r = Value::of(0.0);          ///< constant model: at normal incidence
+    Value gain = Value::of(0.0);       ///< constant model: F = r + gain weight
+    Value above = Value::of(0.0);      ///< amplitude of the medium above
+    Value below = Value::of(0.0);      ///< and of the one below
+    bool inside = false;               ///< never met from air
+    Value up = Value::of(1.0);         ///< U of rule 9
+    std::string metal;                 ///< function of its Fresnel curve, if it has one
+    Value reflecting = Value::of(1.0); ///< of a metal: 1 in the channels where it has an interface
+    Value shininess = Value::of(0.0);
+    Value shininess_u = Value::of(0.0);
+    Value shininess_v = Value::of(0.0);
+    std::string tangents; ///< the tangent frame of an anisotropic layer
+    Value absorption = Value::of(0.0);
+};
+
+/// The same of the base's diffuse part.
+struct DiffuseFacts {
+    Value albedo = Value::of(0.0);
+    Value shininess = Value::of(0.0);
+};
+
 /// Writes a material's code, layer by layer, top first: what a pixel does once (`setup`, which fills the struct `m`),
 /// what it does for every light (`light`), and the sums over the lights with the colours that are multiplied in at the
 /// end.
@@ -42,6 +67,9 @@ class StackCode {
     [[nodiscard]] const MaskNames& clamped() const { return reader_.clamped(); }
     [[nodiscard]] const MaskNames& no_tangent() const { return no_tangent_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Top first.
+    [[nodiscard]] const std::vector<LayerFacts>& layers() const { return layers_; }
+    [[nodiscard]] const DiffuseFacts& diffuse() const { return diffuse_facts_; }
 
   private:
     /// An interface as light meets it: F = r + gain weight in the constant model, `fresnel` for metals and in the exact
@@ -98,6 +126,8 @@ class StackCode {
     std::vector<LightSum> sums_;
     MaskNames no_tangent_;
     std::vector<std::string> warnings_;
+    std::vector<LayerFacts> layers_;
+    DiffuseFacts diffuse_facts_;
 
     // State while going down.
     Value medium_ = Value::of(0.0);    ///< amplitude of the medium above the layer at hand
