@@ -133,7 +133,7 @@ static inline tap tap_of_level(octahedral o, integer level) {
 // The radiance that a lobe around R sees.
 static inline rgb radiance_at(environment around, octahedral o, real shininess) {
     const real level = level_of(shininess);
-    const integer sharper = INTEGER_FROM_LANES(smaller(level, splat(LAST_LEVEL - 1.0f)));
+    const integer sharper = INTEGER_FROM_LANES(within(level, splat(LAST_LEVEL - 1.0f)));
     const real part = level - LANES_FROM_INTEGER(sharper);
     return fetch_colours(around.maps, scale_tap(tap_of_level(o, sharper), 1.0f - part),
                          scale_tap(tap_of_level(o, sharper + 1), part));

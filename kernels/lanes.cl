@@ -80,6 +80,12 @@ static inline real larger(real x, real limit) {
     return x < limit ? limit : x;
 }
 
+// The same with the limit for a NaN: for numbers that become addresses.
+static inline real within(real x, real limit) {
+    const real low = x < limit ? x : limit;
+    return low < 0.0f ? 0.0f : low;
+}
+
 static inline int any_lane(mask m) {
 #if LANES > 1 && defined(CLSHADE_REDUCE)
     return __builtin_reduce_or(m) != 0; // one test of a mask register where any() shuffles

@@ -25,10 +25,11 @@ typedef struct {
     real first, second;
 } pair;
 
-// A place in a grid of `width` x `height` cells whose records start at `first`, 0 <= x <= width, 0 <= y <= height.
+// A place in a grid of `width` x `height` cells whose records start at `first`, 0 <= x <= width, 0 <= y <= height. Pixels
+// without a surface may come with anything: their records are in range too.
 static inline tap tap_at(real x, real y, real width, real height, real first) {
-    const real column = LANES_FROM_INTEGER(INTEGER_FROM_LANES(smaller(x, width - 1.0f)));
-    const real row = LANES_FROM_INTEGER(INTEGER_FROM_LANES(smaller(y, height - 1.0f)));
+    const real column = LANES_FROM_INTEGER(INTEGER_FROM_LANES(within(x, width - 1.0f)));
+    const real row = LANES_FROM_INTEGER(INTEGER_FROM_LANES(within(y, height - 1.0f)));
     const real fx = x - column;
     const real fy = y - row;
     tap t;

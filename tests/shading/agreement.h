@@ -46,7 +46,7 @@ inline std::string describe_worst(const Frame& frame, const reference::Compariso
 inline reference::Tolerance tolerance_of(const Frame& frame) {
     reference::Tolerance loosest;
     for (const BoundMaterial& material : frame.materials) {
-        const reference::Tolerance tolerance = reference::default_tolerance(material);
+        const reference::Tolerance tolerance = reference::default_tolerance(material, frame.environment.has_value());
         loosest = tolerance.rel > loosest.rel ? tolerance : loosest;
     }
     return loosest;
