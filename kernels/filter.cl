@@ -9,20 +9,26 @@
 #include "math.cl"
 #include "vectors.cl"
 
+// Lanes from any address. Not vload: PoCL takes 300 ms longer to compile the kernel with it.
 #if LANES == 1
 #define LOAD(pointer) (*(pointer))
+#else
+typedef struct __attribute__((packed)) {
+    real lanes;
+} unaligned_lanes;
+#define LOAD(pointer) (((__global const unaligned_lanes*)(pointer))->lanes)
+#endif
+
+#if LANES == 1
 #define REVERSED(v) (v)
 #define SUM(v) (v)
 #elif LANES == 4
-#define LOAD(pointer) vload4(0, pointer)
 #define REVERSED(v) (v).s3210
 #define SUM(v) sum_of_4(v)
 #elif LANES == 8
-#define LOAD(pointer) vload8(0, pointer)
 #define REVERSED(v) (v).s76543210
 #define SUM(v) sum_of_8(v)
 #else
-#define LOAD(pointer) vload16(0, pointer)
 #define REVERSED(v) (v).sfedcba9876543210
 #define SUM(v) sum_of_8((v).lo + (v).hi)
 #endif
