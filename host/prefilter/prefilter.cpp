@@ -65,7 +65,11 @@ std::vector<float> cached_floats(const ProgramCache& cache, const std::string& i
 } // namespace
 
 Prefilter::Prefilter(Device& device, SourceSet kernels, ProgramCache cache, int lanes)
-    : device_(&device), kernels_(std::move(kernels)), cache_(std::move(cache)), lanes_(lanes) {}
+    : device_(&device), kernels_(std::move(kernels)), cache_(std::move(cache)), lanes_(lanes) {
+    if (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16) {
+        throw std::invalid_argument(fmt::format("{} lanes: kernels come in 1, 4, 8 and 16", lanes));
+    }
+}
 
 FilteredSet Prefilter::filter(const LatLong& image, const std::function<void(double)>& progress,
                               PrefilterReport* report) {
@@ -95,6 +99,7 @@ FilteredSet Prefilter::filter(const LatLong& image, const std::function<void(dou
     }
     set->name = image.name;
     set->hash = hash;
+    set->up = image.up;
     if (progress) {
         progress(1.0);
     }

@@ -66,11 +66,14 @@ TEST_F(PrefilterCache, AnotherPictureIsAnotherEntry) {
     EXPECT_NE(filter(image, false).radiance, first.radiance);
 }
 
-TEST_F(PrefilterCache, TheNameIsThePictureOwn) {
+TEST_F(PrefilterCache, NameAndAxisAreThePictures) {
     LatLong image = random_picture(32, 1);
-    static_cast<void>(filter(image, false));
+    EXPECT_FALSE(filter(image, false).up.has_value());
     image.name = "renamed";
-    EXPECT_EQ(filter(image, true).name, "renamed");
+    image.up = UpAxis::y;
+    const FilteredSet again = filter(image, true);
+    EXPECT_EQ(again.name, "renamed");
+    EXPECT_EQ(again.up, UpAxis::y);
 }
 
 TEST_F(PrefilterCache, EntryCutShortIsMadeAnew) {

@@ -2,6 +2,7 @@
 // suns.
 #include "host/environment/filter_layout.h"
 #include "host/environment/sh.h"
+#include "host/prefilter/grid_mean.h"
 #include "tests/prefilter/support.h"
 
 #include <gtest/gtest.h>
@@ -139,7 +140,9 @@ TEST(Radiance, SunKeepsItsEnergyAtEveryLevel) {
     const FilteredSet set = prefilter_of().filter(image, {});
     for (int level = 0; level < radiance_levels; ++level) {
         const int cells = level_cells(level);
-        EXPECT_LT(relative_difference(energy(level_of(set, level), cells, 4), whole), 0.005) << "level " << level;
+        const glm::dvec3 kept = energy(level_of(set, level), cells, 4);
+        EXPECT_LT(relative_difference(kept, whole), 0.005) << "level " << level;
+        EXPECT_LT(relative_difference(grid_mean(level_of(set, level), cells) * 4.0 * pi, kept), 1e-3);
     }
     EXPECT_LT(relative_difference(energy(set.irradiance, irradiance_cells, 4), whole), 0.005);
 }
@@ -302,6 +305,10 @@ TEST(Radiance, ProgressRunsFromNothingToAll) {
     EXPECT_FALSE(report.from_cache);
     EXPECT_GT(report.kernel_milliseconds, 0.0);
     EXPECT_GT(report.milliseconds, report.kernel_milliseconds);
+}
+
+TEST(Radiance, RefusesLanesThereAreNot) {
+    EXPECT_THROW(static_cast<void>(prefilter_of(3)), std::invalid_argument);
 }
 
 TEST(Radiance, RefusesWhatIsNotTwiceAsWideAsHigh) {
