@@ -58,19 +58,20 @@ struct HalfVectors {
     }
 };
 
-/// Where the integrand over theta bends: the ends of the azimuth's cases, distances from the first of them growing
-/// by three (at grazing view it is a small angle that everything else is measured in), and the lobe's width.
+/// Where the integrand over theta bends: the ends of the azimuth's cases, distances growing by three from where the
+/// full circle and the light end (at grazing view they are measured in small angles), and the lobe's width.
 std::vector<double> bends(const HalfVectors& view, double n) {
     // cos^n below e^-45 counts for nothing.
     const double end = n > 0.0 ? std::min(view.largest_theta(), std::acos(std::exp(-45.0 / n))) : view.largest_theta();
     std::vector<double> at{0.0, view.full_circle(), view.te, end};
-    for (double theta = 3.0 * view.full_circle(); theta < end; theta *= 3.0) {
-        at.push_back(theta);
+    for (double distance = 3.0 * view.full_circle(); distance < end; distance *= 3.0) {
+        at.push_back(distance);
+        at.push_back(view.largest_theta() - distance);
     }
     for (const double widths : {1.5, 3.0, 5.0}) {
         at.push_back(widths / std::sqrt(n + 1.0));
     }
-    const auto out = [&](double theta) { return theta > end; };
+    const auto out = [&](double theta) { return theta < 0.0 || theta > end; };
     at.erase(std::remove_if(at.begin(), at.end(), out), at.end());
     std::sort(at.begin(), at.end());
     at.erase(std::unique(at.begin(), at.end()), at.end());
