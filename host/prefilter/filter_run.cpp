@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t work_group = 32;
 /// Launches are cut to about this long, so that progress is told and other work gets its turn.
 constexpr double wanted_milliseconds = 30.0;
-constexpr std::size_t first_launch = 8 * work_group;
+constexpr double first_groups = 8.0;
 
 /// A buffer that holds the given constants.
 template <class T>
@@ -101,9 +101,9 @@ class FilterRun {
 
   private:
     void run(std::size_t directions, double work) {
-        std::size_t share = first_launch;
+        double groups = first_groups;
         for (std::size_t first = 0; first < directions;) {
-            const std::size_t end = std::min(directions, first + share);
+            const std::size_t end = std::min(directions, first + static_cast<std::size_t>(groups) * work_group);
             kernel_.set_argument(6, static_cast<int>(first));
             kernel_.set_argument(7, static_cast<int>(end));
             kernel_.launch((end - first + work_group - 1) / work_group * work_group, work_group);
@@ -113,8 +113,7 @@ class FilterRun {
                 (*progress_)((done_ + work * static_cast<double>(end) / static_cast<double>(directions)) / all_work_);
             }
             const double growth = std::clamp(wanted_milliseconds / std::max(milliseconds, 0.01), 0.25, 8.0);
-            const auto groups = static_cast<std::size_t>(std::ceil(growth * static_cast<double>(share / work_group)));
-            share = std::max<std::size_t>(1, groups) * work_group;
+            groups = std::max(1.0, std::ceil(growth * groups));
             first = end;
         }
     }
