@@ -41,4 +41,14 @@ Shader& Session::shader(const AovSelection& aovs) {
     return *shader_;
 }
 
+Prefilter& Session::prefilter() {
+    if (!prefilter_) {
+        SourceSet kernels = kernel_sources(options_.kernel_dir); // a bad --kernel-dir before a device is opened
+        const int wanted = lanes();
+        prefilter_.emplace(device(), std::move(kernels), ProgramCache::standard(),
+                           wanted != 0 ? wanted : automatic_lanes(info()));
+    }
+    return *prefilter_;
+}
+
 } // namespace clshade::cli

@@ -3,6 +3,7 @@
 
 #include "host/cli/options.h"
 #include "host/device/device.h"
+#include "host/prefilter/prefilter.h"
 #include "host/shading/shader.h"
 
 #include <optional>
@@ -22,6 +23,8 @@ class Session {
     [[nodiscard]] Device& device();
     /// Made on first use with the outputs of that call. Throws like device(), and UsageError for a bad --kernel-dir.
     [[nodiscard]] Shader& shader(const AovSelection& aovs);
+    /// Made on first use, with the kernels and lanes that the shader takes. Throws like shader().
+    [[nodiscard]] Prefilter& prefilter();
     /// --lanes; for `auto` what `bench --tune` stored for this device, else 0: the shader's own choice.
     [[nodiscard]] int lanes();
     /// True the first time a program is met: its build belongs to that frame and to no other.
@@ -32,6 +35,7 @@ class Session {
     std::optional<DeviceInfo> info_;
     std::optional<Device> device_;
     std::optional<Shader> shader_;
+    std::optional<Prefilter> prefilter_;
     std::set<std::string> programs_;
 };
 
