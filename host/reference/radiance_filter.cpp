@@ -144,7 +144,7 @@ Picture enlarged(Picture picture) {
 
 bool halves_for(const Picture& picture, double shininess) {
     const double deviation = 2.0 / std::sqrt(shininess);
-    return picture.even() && pi / (picture.height / 2) <= deviation / texels_per_deviation;
+    return picture.even() && pi / (0.5 * picture.height) <= deviation / texels_per_deviation;
 }
 
 } // namespace clshade::reference

@@ -267,6 +267,23 @@ TEST(EnvironmentLight, ShOfARotatedEnvironmentIsTheRotatedSh) {
     }
 }
 
+TEST(EnvironmentLight, DiffuseSourcesAreWhatTheirNamesSay) {
+    BoundEnvironment bound = environment_of(random_picture(16, 5));
+    bound.world_to_image = rotation_about({1.0, 0.5, 0.0}, 0.9);
+    const PreparedEnvironment environment(bound);
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, -0.7, 0.3));
+    const glm::dvec3 turned = bound.world_to_image * normal;
+    const auto band = [&](std::size_t l) { return sh_irradiance_band(environment.map().sh(), l, turned); };
+    const auto seen = [&](AmbientSource source) {
+        bound.diffuse = source;
+        return environment.diffuse_light(normal, up).all();
+    };
+    EXPECT_LT(largest(seen(AmbientSource::sh2) - (band(0) + band(1))), 1e-14);
+    EXPECT_LT(largest(seen(AmbientSource::sh3) - (band(0) + band(1) + band(2))), 1e-14);
+    EXPECT_LT(largest(seen(AmbientSource::irradiance_map) - environment.map().irradiance_over_pi(turned)), 1e-14);
+    EXPECT_GT(largest(band(2)), 1e-4);
+}
+
 TEST(EnvironmentLight, IntensityMultipliesEverything) {
     BoundEnvironment bound = environment_of(random_picture(16, 3));
     const LayerValues layer = layer_of(SpecularModel::blinn_phong, glm::dvec3(0.3), 50.0);

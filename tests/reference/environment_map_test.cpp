@@ -218,7 +218,7 @@ TEST(EnvironmentMap, HasNoSeams) {
             EXPECT_LT(largest(map.radiance(at + step, n) - map.radiance(at - step, n)), 1e-6) << n;
         }
         EXPECT_LT(largest(map.irradiance_over_pi(at + step) - map.irradiance_over_pi(at - step)), 1e-6);
-        const auto image = map.image();
+        const auto& image = map.image();
         EXPECT_LT(largest(radiance_along(*image, at + step) - radiance_along(*image, at - step)), 1e-6);
     }
 }
@@ -232,7 +232,8 @@ double mean_of(const DirectionGrid& grid) {
         for (int i = 0; i < 2 * cells; ++i) {
             const auto place = [&](int k) {
                 const double offset = (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0);
-                return 2.0 * (k / 2 + 0.5 + offset) / cells - 1.0;
+                const int cell = k / 2;
+                return 2.0 * (cell + 0.5 + offset) / cells - 1.0;
             };
             const glm::dvec2 p{place(i), place(j)};
             const double z = 1.0 - std::abs(p.x) - std::abs(p.y);
@@ -247,7 +248,7 @@ double mean_of(const DirectionGrid& grid) {
 /// A sun of peak 2e5 over a dim sky.
 std::shared_ptr<const LatLong> picture_with_sun() {
     auto image = std::make_shared<LatLong>(*constant_picture(glm::dvec3(0.1), 64));
-    image->rgb[3 * (20 * 128 + 37)] = 2e5F;
+    image->rgb[3 * (std::size_t{20} * 128 + 37)] = 2e5F;
     return image;
 }
 

@@ -183,7 +183,7 @@ class EnvironmentTolerance : public testing::Test {
   protected:
     EnvironmentTolerance() : frame_(random_frame(64, 64, SpecularModel::blinn_phong, DiffuseModel::oren_nayar, 5)) {
         auto image = std::make_shared<LatLong>(*random_picture(32, 2));
-        image->rgb[3 * (9 * 64 + 20)] = 3e3F;
+        image->rgb[3 * (std::size_t{9} * 64 + 20)] = 3e3F;
         frame_.environment = environment_of(image);
         frame_.environment->world_to_image = rotation_about({1.0, 0.2, 0.1}, 1.0);
         image_ = shade(frame_, {}, 2);
@@ -195,8 +195,8 @@ class EnvironmentTolerance : public testing::Test {
         for (int p = 0; p < 4; ++p) {
             for (int y = 0; y < 64; ++y) {
                 for (int x = 0; x < 64; ++x) {
-                    const double value =
-                        image.planes[static_cast<std::size_t>(p)][static_cast<std::size_t>(64 * y + x)];
+                    const double value = image.planes[static_cast<std::size_t>(p)]
+                                                     [static_cast<std::size_t>(y) * 64 + static_cast<std::size_t>(x)];
                     device.at(p, x, y) = static_cast<float>(value * factor);
                 }
             }
