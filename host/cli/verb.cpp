@@ -75,6 +75,20 @@ Examples:
   clshade inspect in.exr
   clshade inspect in.exr --scene look.toml --json roles.json)";
 
+constexpr std::string_view prefilter_details =
+    R"(Filters a lat-long picture (.hdr, .exr) for every shininess and writes the folder SET: radiance_n8192.exr to
+radiance_n0001.exr and irradiance.exr (E/pi) on octahedral grids, sh.exr with bands 0 to 2, ambient_brdf.exr with scale
+and bias. A scene takes SET in place of the picture: image = "SET" under [environment].
+
+`shade` pre-filters by itself and keeps the result in the cache, as this verb does; the folder is for looking at and for
+taking elsewhere. The table shows the mean of each map beside the picture's: filtering keeps energy, suns included.
+NaN and Inf become black, negative channels 0; both are counted. With --max-mem a picture that would take more is halved
+while it is read.
+
+Examples:
+  clshade prefilter studio.hdr -o studio_set
+  clshade prefilter studio.hdr -o studio_set --runstats --json report.json)";
+
 constexpr std::string_view demo_details =
     R"(Makes DIR/gbuffer.0001.exr ... (multi-layer EXR with camera), DIR/scene.toml, DIR/shaded.0001.exr and .png ...
 
@@ -105,8 +119,8 @@ constexpr std::array<Verb, 8> table{{
      bench_details, declare_bench},
     {"inspect", "INPUT [flags]", "shows what is in the file, which channel plays which role, and why", inspect_details,
      declare_inspect},
-    {"prefilter", "ENV -o SET", "environment image to irradiance and radiance maps (not built yet)", "",
-     declare_prefilter},
+    {"prefilter", "ENV -o SET [flags]", "environment picture to pre-filtered radiance, irradiance and SH maps",
+     prefilter_details, declare_prefilter},
     {"demo", "[DIR] [flags]", "writes a synthetic G-buffer sequence and a scene, then shades them", demo_details,
      declare_demo},
     {"devices", "[flags]", "lists the OpenCL devices that can run clshade", devices_details, declare_devices},
