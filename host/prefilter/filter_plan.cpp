@@ -129,11 +129,4 @@ void join_border(std::span<float> grid, int cells) {
     copy(0, 0, cells, cells);
 }
 
-double texels_in_reach(const FilterSource& source) {
-    // A cap of half-angle sine^2 = reach takes that share of the sphere; rows crowd towards the poles, which makes it
-    // pi/2 times as many texels on average.
-    const double all = static_cast<double>(source.width) * source.height;
-    return std::min(all, static_cast<double>(source.reach) * all * pi / 2.0);
-}
-
 } // namespace clshade

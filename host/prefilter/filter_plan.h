@@ -32,7 +32,4 @@ struct FilterPicture {
 /// rounding errors. RGB interleaved, (cells+1)^2 vertices.
 void join_border(std::span<float> grid, int cells);
 
-/// Texels that a lobe reaches from one direction, on average: the measure of work.
-[[nodiscard]] double texels_in_reach(const FilterSource& source);
-
 } // namespace clshade
