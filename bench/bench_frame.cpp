@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <string>
 
 namespace clshade {
@@ -104,6 +105,8 @@ Light light_of(LightType type, const std::string& name, glm::dvec3 direction, gl
 
 std::vector<Light> lights_of(BenchLights lights) {
     switch (lights) {
+    case BenchLights::none:
+        return {};
     case BenchLights::distant1:
         return {light_of(LightType::distant, "key", {0.4, -0.5, -0.8}, {3.0, 2.9, 2.7})};
     case BenchLights::distant8: {
@@ -198,7 +201,11 @@ Frame make_bench_frame(int width, int height, std::uint64_t seed) {
     return frame;
 }
 
-void apply_scene(Frame& frame, const BenchScene& scene) {
+void apply_scene(Frame& frame, const BenchScene& scene, const std::optional<BoundEnvironment>& environment) {
+    if (scene.environment && !environment) {
+        throw std::invalid_argument("a bench scene with an environment needs one");
+    }
+    frame.environment = scene.environment ? environment : std::nullopt;
     frame.lights = lights_of(scene.lights);
     frame.materials = scene.materials;
     frame.roles.material_id = no_plane;

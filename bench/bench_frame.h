@@ -5,6 +5,7 @@
 #include "host/gbuffer/frame.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ inline constexpr int bench_scattered_ids = 14; ///< 1 to 4 by chance, each pixel
 inline constexpr int bench_planes = 15;
 inline constexpr int bench_outputs = 4; ///< R, G, B and alpha
 
-enum class BenchLights { distant1, distant8, point1, spot1 };
+enum class BenchLights { none, distant1, distant8, point1, spot1 };
 
 /// Which pixels have which material, where there are several: the plane of ids that the frame reads.
 enum class BenchIds { tiles, scattered };
@@ -34,13 +35,15 @@ struct BenchScene {
     BenchLights lights = BenchLights::distant1;
     BenchIds ids = BenchIds::tiles; ///< of no meaning for one material
     std::string variant = {};       ///< tells apart rows of one model: where its F0 comes from
+    bool environment = false;       ///< the studio of bench_environment.h all around
 };
 
 /// Waves and a grid of spheres seen in perspective; no coverage and no depth plane, every pixel has a surface. Smooth
 /// albedo and F0, shininess 8 to 256 evenly in its logarithm. The same seed gives the same picture at one size.
 [[nodiscard]] Frame make_bench_frame(int width, int height, std::uint64_t seed);
 
-/// Puts a row's lights and materials into a bench frame; the planes stay as they are.
-void apply_scene(Frame& frame, const BenchScene& scene);
+/// Puts a row's lights and materials into a bench frame, and `environment` where the scene has one (without it:
+/// std::invalid_argument). The planes stay as they are.
+void apply_scene(Frame& frame, const BenchScene& scene, const std::optional<BoundEnvironment>& environment = {});
 
 } // namespace clshade

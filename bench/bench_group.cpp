@@ -58,8 +58,9 @@ void fail(BenchResult& result, const std::string& reason) {
 
 } // namespace
 
-BenchGroup::BenchGroup(Device& device, const BenchOptions& options, std::vector<BenchRow> rows)
-    : device_(&device), options_(options), frame_(make_bench_frame(rows.at(0).width, rows.at(0).height, options.seed)),
+BenchGroup::BenchGroup(Device& device, const BenchOptions& options, BenchStudio& studio, std::vector<BenchRow> rows)
+    : device_(&device), options_(options), studio_(&studio),
+      frame_(make_bench_frame(rows.at(0).width, rows.at(0).height, options.seed)),
       shader_(device, kernel_sources(options.kernel_dir), ProgramCache::standard(), shader_options(options)),
       memory_(std::make_shared<PictureMemory>(device, frame_, bench_outputs)),
       maker_(device, frame_, memory_, host_threads(device, options), shader_.lanes()) {
@@ -104,9 +105,11 @@ void BenchGroup::prepare(const std::function<void(const std::string&)>& tell) {
 }
 
 void BenchGroup::prepare_row(Entrant& entrant) {
-    apply_scene(frame_, entrant.row.scene);
+    const std::optional<BoundEnvironment> environment = environment_of(entrant.row.scene);
+    apply_scene(frame_, entrant.row.scene, environment);
     if (entrant.reported) {
-        const BuildTimes build = measure_build(*device_, entrant.row.scene, options_.kernel_dir, shader_.lanes());
+        const BuildTimes build =
+            measure_build(*device_, entrant.row.scene, options_.kernel_dir, shader_.lanes(), environment);
         entrant.result.build_cold_ms = build.cold_ms;
         entrant.result.build_cached_ms = build.cached_ms;
     }
@@ -114,6 +117,7 @@ void BenchGroup::prepare_row(Entrant& entrant) {
     check_against_reference(image.planes);
     entrant.prepared = std::make_shared<PreparedFrame>(shader_.prepare(frame_, memory_));
     entrant.result.lights = static_cast<int>(frame_.lights.size());
+    entrant.result.environments = frame_.environment ? 1 : 0;
     entrant.result.layers = deepest_stack(frame_);
     entrant.contestant = contestants_.size();
     contestants_.push_back({entrant.row.key(), [prepared = entrant.prepared] {
@@ -123,6 +127,10 @@ void BenchGroup::prepare_row(Entrant& entrant) {
     for (const Rival rival : entrant.row.rivals) {
         entrant.pairings.push_back(pair_with(rival, entrant, image.planes));
     }
+}
+
+std::optional<BoundEnvironment> BenchGroup::environment_of(const BenchScene& scene) {
+    return scene.environment ? std::optional(studio_->environment()) : std::nullopt;
 }
 
 void BenchGroup::check_against_reference(const PlaneSlab& picture) const {

@@ -1,6 +1,7 @@
 // Rows of one picture size, which share one set of planes and run in turns with all their rivals.
 #pragma once
 
+#include "bench/bench_environment.h"
 #include "bench/bench_rows.h"
 #include "bench/benchmark.h"
 #include "bench/contest.h"
@@ -14,8 +15,9 @@ namespace clshade {
 
 class BenchGroup {
   public:
-    /// All rows of one size. Throws RuntimeFailure when the planes do not fit.
-    BenchGroup(Device& device, const BenchOptions& options, std::vector<BenchRow> rows);
+    /// All rows of one size. Refers to the studio, which it asks for if a row stands in it. Throws RuntimeFailure when
+    /// the planes do not fit.
+    BenchGroup(Device& device, const BenchOptions& options, BenchStudio& studio, std::vector<BenchRow> rows);
 
     /// Prepares and checks every row and rival; `tell` is called before each row.
     void prepare(const std::function<void(const std::string& what)>& tell);
@@ -55,6 +57,7 @@ class BenchGroup {
     /// Takes rows in that only others are measured against.
     void add_missing_baselines();
     void prepare_row(Entrant& entrant);
+    [[nodiscard]] std::optional<BoundEnvironment> environment_of(const BenchScene& scene);
     void check_against_reference(const PlaneSlab& picture) const;
     [[nodiscard]] Pairing pair_with(Rival rival, const Entrant& entrant, const PlaneSlab& picture);
     [[nodiscard]] Known enter(RivalEntry entry, const std::string& name, const PlaneSlab& picture);
@@ -67,6 +70,7 @@ class BenchGroup {
 
     Device* device_;
     BenchOptions options_;
+    BenchStudio* studio_;
     Frame frame_;
     Shader shader_;
     std::shared_ptr<PictureMemory> memory_; ///< of every row and rival

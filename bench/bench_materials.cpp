@@ -97,8 +97,8 @@ BoundMaterial single_layer(SpecularModel specular, DiffuseModel diffuse) {
     return material;
 }
 
-BoundMaterial layer_base() {
-    BoundMaterial material = single_layer();
+BoundMaterial layer_base(DiffuseModel diffuse) {
+    BoundMaterial material = single_layer(SpecularModel::blinn_phong, diffuse);
     material.base().f0 = constant(f0_of_index(2.0));
     return material;
 }

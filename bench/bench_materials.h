@@ -13,9 +13,9 @@ inline constexpr int most_coats = 7;
 [[nodiscard]] BoundMaterial single_layer(SpecularModel specular = SpecularModel::blinn_phong,
                                          DiffuseModel diffuse = DiffuseModel::lambert);
 
-/// The base of the layer tables: Blinn-Phong of index 2.0 over Lambert, albedo and shininess from the planes. Section 5
-/// of models.md has F_b as a constant of the material, as the deck does.
-[[nodiscard]] BoundMaterial layer_base();
+/// The base of the layer tables: Blinn-Phong of index 2.0 over a diffuse part, albedo and shininess from the planes.
+/// Section 5 of models.md has F_b as a constant of the material, as the deck does.
+[[nodiscard]] BoundMaterial layer_base(DiffuseModel diffuse = DiffuseModel::lambert);
 
 /// A base under one to seven coats. The topmost is models.md section 13's second layer: index 1.5, shininess 512,
 /// absorption (0.02, 0.05, 0.10), or for `original` the alpha d of the same colour (section 5). No two coats are alike,

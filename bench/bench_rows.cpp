@@ -1,11 +1,13 @@
 #include "bench/bench_rows.h"
 
+#include "bench/bench_scenes.h"
+#include "bench/key_filter.h"
 #include "host/base/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <regex>
 #include <utility>
 
@@ -15,8 +17,6 @@ namespace {
 
 constexpr int large_width = 3840;
 constexpr int large_height = 2160;
-constexpr int deck_width = 1280; // the deck's own picture size
-constexpr int deck_height = 720;
 constexpr int quick_width = 320;
 constexpr int quick_height = 180;
 
@@ -26,6 +26,8 @@ const std::vector<Rival> all_rivals = {Rival::stream_opencl, Rival::stream_cpp, 
 
 std::string_view name_of(BenchLights lights) {
     switch (lights) {
+    case BenchLights::none:
+        return "unlit";
     case BenchLights::distant1:
         return "distant1";
     case BenchLights::distant8:
@@ -38,19 +40,12 @@ std::string_view name_of(BenchLights lights) {
     return "?";
 }
 
-BenchScene scene_of(BoundMaterial material, BenchLights lights = BenchLights::distant1) {
-    return {.materials = {std::move(material)}, .lights = lights, .ids = BenchIds::tiles, .variant = {}};
-}
-
-/// What the coated rows are measured against.
-BenchScene bare_scene() {
-    BenchScene scene = scene_of(layer_base());
-    scene.variant = "constant_f0";
-    return scene;
-}
-
-BenchScene coated_scene(int coats, AbsorptionModel absorption) {
-    return scene_of(coated(coats, FresnelModel::constant, absorption));
+/// As in the shader's key of a kernel: "distant1", "environment", "distant1_environment".
+std::string lights_key(const BenchScene& scene) {
+    if (!scene.environment) {
+        return std::string(name_of(scene.lights));
+    }
+    return scene.lights == BenchLights::none ? "environment" : fmt::format("{}_environment", name_of(scene.lights));
 }
 
 /// Four materials of different stacks.
@@ -67,16 +62,18 @@ BenchRow row_of(BenchScene scene, std::vector<Rival> rivals) {
     return row;
 }
 
-BenchRow against_lambert(BenchScene scene, std::vector<Rival> rivals = streams) {
+BenchRow against(BenchScene baseline, BenchScene scene, std::vector<Rival> rivals = streams) {
     BenchRow row = row_of(std::move(scene), std::move(rivals));
-    row.baselines.push_back({"", {BenchScene{}}});
+    row.baselines.push_back({"", {std::move(baseline)}});
     return row;
 }
 
+BenchRow against_lambert(BenchScene scene, std::vector<Rival> rivals = streams) {
+    return against(BenchScene{}, std::move(scene), std::move(rivals));
+}
+
 BenchRow against_base(BenchScene scene, std::vector<Rival> rivals = streams) {
-    BenchRow row = row_of(std::move(scene), std::move(rivals));
-    row.baselines.push_back({"", {bare_scene()}});
-    return row;
+    return against(bare_scene(), std::move(scene), std::move(rivals));
 }
 
 /// A coat on a base whose F0 comes from a map: three planes and three square roots more.
@@ -87,8 +84,7 @@ BenchRow mapped_base_row() {
 }
 
 BenchRow mixed_row(BenchIds ids) {
-    BenchRow row =
-        row_of({.materials = mixed_materials(), .lights = BenchLights::distant1, .ids = ids, .variant = {}}, streams);
+    BenchRow row = row_of({.materials = mixed_materials(), .ids = ids}, streams);
     BenchBaseline alone{std::string(mean_alone), {}};
     for (const BoundMaterial& material : row.scene.materials) {
         alone.scenes.push_back(scene_of(material));
@@ -136,6 +132,33 @@ std::vector<BenchRow> further_rows() {
     return rows;
 }
 
+/// The four stacks of the deck's tables of image-based light: one of them, the others against it.
+std::vector<BenchRow> stacks_in_studio(BenchLights lights) {
+    using enum DiffuseModel;
+    const BenchScene plain = in_studio(bare_scene(lambert), lights);
+    std::vector<BenchRow> rows = {against_base(plain)};
+    for (const BenchScene& scene : {bare_scene(oren_nayar), dual_scene(lambert), dual_scene(oren_nayar)}) {
+        rows.push_back(against(plain, in_studio(scene, lights)));
+    }
+    return rows;
+}
+
+std::vector<BenchRow> environment_rows() {
+    std::vector<BenchRow> rows = stacks_in_studio(BenchLights::none);
+    std::vector<BenchRow> lit = stacks_in_studio(BenchLights::distant1);
+    std::move(lit.begin(), lit.end(), std::back_inserter(rows));
+    return rows;
+}
+
+/// What limits of speed are about, and the deck's heaviest row.
+std::vector<BenchRow> main_environment_rows() {
+    using enum DiffuseModel;
+    const BenchScene single = in_studio(bare_scene(lambert), BenchLights::none);
+    const BenchScene lit = in_studio(bare_scene(lambert), BenchLights::distant1);
+    return {against_base(single), against(single, in_studio(dual_scene(lambert), BenchLights::none)), against_base(lit),
+            against(lit, in_studio(dual_scene(oren_nayar), BenchLights::distant1))};
+}
+
 /// Every row at its own size, sizes together, in the order of the report.
 std::vector<BenchRow> all_rows() {
     std::vector<BenchRow> rows;
@@ -147,19 +170,11 @@ std::vector<BenchRow> all_rows() {
         }
     };
     add(main_rows(), large_width, large_height);
+    add(main_environment_rows(), large_width, large_height);
     add(main_rows(), deck_width, deck_height);
     add(further_rows(), deck_width, deck_height);
+    add(environment_rows(), deck_width, deck_height);
     return rows;
-}
-
-std::regex compile_filter(const std::string& filter) {
-    try {
-        return std::regex(filter, std::regex::ECMAScript);
-    } catch (const std::regex_error& error) {
-        throw UsageError(fmt::format("--filter '{}' is not a regular expression ({}); try a part of a key, such as "
-                                     "oren_nayar",
-                                     filter, error.what()));
-    }
 }
 
 } // namespace
@@ -176,14 +191,6 @@ std::string_view name_of(BenchStatus status) {
         return "error";
     }
     return "?";
-}
-
-std::vector<std::string> benchmark_keys(const BenchOptions& options) {
-    std::vector<std::string> keys;
-    for (const BenchRow& row : select_rows(options)) {
-        keys.push_back(row.key());
-    }
-    return keys;
 }
 
 std::string_view name_of(Rival rival) {
@@ -209,12 +216,13 @@ std::string BenchRow::key() const {
 }
 
 std::string row_name(const BenchScene& scene) {
+    const std::string lights = lights_key(scene);
     if (scene.materials.size() == 1) {
         return fmt::format("shade.{}{}{}.{}", model_key(scene.materials.front()), scene.variant.empty() ? "" : ".",
-                           scene.variant, name_of(scene.lights));
+                           scene.variant, lights);
     }
     return fmt::format("shade.mixed{}.{}.{}", scene.materials.size(),
-                       scene.ids == BenchIds::tiles ? "tiles" : "scattered", name_of(scene.lights));
+                       scene.ids == BenchIds::tiles ? "tiles" : "scattered", lights);
 }
 
 BenchRow lambert_row(int width, int height) {
@@ -229,7 +237,7 @@ std::vector<BenchRow> select_rows(const BenchOptions& options) {
         throw UsageError(
             fmt::format("--size {}x{} is no picture size; give both, such as 1280x720", options.width, options.height));
     }
-    const std::regex filter = compile_filter(options.filter);
+    const std::regex filter = compiled_filter(options.filter);
     std::vector<BenchRow> chosen;
     for (BenchRow& row : all_rows()) {
         if (options.width > 0) {
@@ -247,33 +255,6 @@ std::vector<BenchRow> select_rows(const BenchOptions& options) {
         }
     }
     return chosen;
-}
-
-std::vector<DeckEntry> deck_entries() {
-    using enum AbsorptionModel;
-    constexpr std::string_view single = "one directional light, single layer";
-    constexpr std::string_view lambert = "one light, Blinn-Lambert";
-    const std::string ours = row_name({});
-    const std::string base = row_name(bare_scene());
-    const auto dual = [](AbsorptionModel absorption) { return row_name(coated_scene(1, absorption)); };
-    const std::string oren_nayar =
-        row_name(scene_of(single_layer(SpecularModel::blinn_phong, DiffuseModel::oren_nayar)));
-    return {
-        {single, single, 1.0, base, base},
-        {"one directional light, dual layer, no absorption", single, 1.030, dual(none), base},
-        {"one directional light, dual layer, approximated absorption", single, 1.121, dual(approximated), base},
-        {"one directional light, dual layer, original absorption", single, 1.606, dual(original), base},
-        {lambert, lambert, 1.0, ours, ours},
-        {"one light, Blinn-Oren-Nayar", lambert, 1.289, oren_nayar, ours},
-    };
-}
-
-std::vector<LayerEntry> layer_entries() {
-    std::vector<LayerEntry> entries = {{1, row_name(bare_scene())}};
-    for (const int coats : {1, 3, most_coats}) {
-        entries.push_back({coats + 1, row_name(coated_scene(coats, AbsorptionModel::approximated))});
-    }
-    return entries;
 }
 
 } // namespace clshade

@@ -35,32 +35,18 @@ struct BenchRow {
     [[nodiscard]] std::string key() const;
 };
 
+inline constexpr int deck_width = 1280; ///< the deck's own picture size
+inline constexpr int deck_height = 720;
+
 /// "shade.blinn_phong.lambert.distant1"; with a variant "shade.blinn_phong.lambert.constant_f0.distant1"; several
-/// materials: "shade.mixed4.tiles.distant1".
+/// materials: "shade.mixed4.tiles.distant1"; in the studio "environment" or "distant1_environment" at the end.
 [[nodiscard]] std::string row_name(const BenchScene& scene);
 
 /// The one-light Lambert kernel that others are measured against.
 [[nodiscard]] BenchRow lambert_row(int width, int height);
 
-/// All rows that the options choose, sizes replaced as the options say, each key once. Throws UsageError for a filter
-/// that is no regular expression, or half a size.
+/// All rows of shading that the options choose, sizes replaced as the options say, each key once. Throws UsageError for
+/// a filter that is no regular expression, or half a size.
 [[nodiscard]] std::vector<BenchRow> select_rows(const BenchOptions& options);
-
-/// The deck's direct-light tables (models.md section 13), by names of our rows.
-struct DeckEntry {
-    std::string_view name;
-    std::string_view baseline;
-    double ratio;
-    std::string row;
-    std::string baseline_row;
-};
-[[nodiscard]] std::vector<DeckEntry> deck_entries();
-
-/// One Lambert material under 0, 1, 3 and 7 coats: from how time grows with the layers.
-struct LayerEntry {
-    int layers;
-    std::string row;
-};
-[[nodiscard]] std::vector<LayerEntry> layer_entries();
 
 } // namespace clshade

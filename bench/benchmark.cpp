@@ -3,6 +3,9 @@
 #include "bench/bench_group.h"
 #include "bench/bench_rows.h"
 #include "bench/build_times.h"
+#include "bench/deck_table.h"
+#include "bench/prefilter_bench.h"
+#include "bench/prefilter_rows.h"
 #include "host/base/error.h"
 
 #include <fmt/format.h>
@@ -106,16 +109,28 @@ void load_compiler(Device& device, const BenchOptions& options) {
 
 } // namespace
 
+std::vector<std::string> benchmark_keys(const BenchOptions& options) {
+    std::vector<std::string> keys;
+    for (const BenchRow& row : select_rows(options)) {
+        keys.push_back(row.key());
+    }
+    for (const PrefilterRow& row : select_prefilter_rows(options)) {
+        keys.push_back(row.key());
+    }
+    return keys;
+}
+
 BenchReport run_benchmarks(Device& device, const BenchOptions& options, const BenchProgress& progress) {
     const std::vector<BenchRow> rows = select_rows(options);
-    if (rows.empty()) {
+    const std::vector<PrefilterRow> prefilter_rows = select_prefilter_rows(options);
+    if (rows.empty() && prefilter_rows.empty()) {
         BenchOptions every = options;
         every.filter.clear();
         throw UsageError(fmt::format("--filter '{}' matches no kernel; there are {}", options.filter,
                                      fmt::join(benchmark_keys(every), ", ")));
     }
     const std::vector<std::vector<BenchRow>> groups = by_size(rows);
-    const int total = static_cast<int>(rows.size() + groups.size());
+    const int total = static_cast<int>(rows.size() + groups.size() + prefilter_rows.size());
     int done = 0;
     const auto tell = [&](const std::string& what) {
         if (progress) {
@@ -126,9 +141,10 @@ BenchReport run_benchmarks(Device& device, const BenchOptions& options, const Be
 
     load_compiler(device, options);
     BenchReport report;
+    BenchStudio studio(device, options.kernel_dir, options.lanes);
     for (const std::vector<BenchRow>& group_rows : groups) {
         try {
-            BenchGroup group(device, options, group_rows);
+            BenchGroup group(device, options, studio, group_rows);
             group.prepare([&](const std::string& key) { tell("building " + key); });
             tell(fmt::format("timing {}x{}", group_rows.front().width, group_rows.front().height));
             group.run();
@@ -144,6 +160,10 @@ BenchReport run_benchmarks(Device& device, const BenchOptions& options, const Be
         }
     }
     add_missing_deck(report.deck);
+    std::vector<BenchResult> filtered = run_prefilter_rows(device, options, prefilter_rows, tell);
+    std::move(filtered.begin(), filtered.end(), std::back_inserter(report.results));
+    report.headline = headline_of(report.results);
+    report.limits = judged_limits(report.results);
     return report;
 }
 

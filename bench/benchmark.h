@@ -37,14 +37,16 @@ struct RivalResult {
     std::string reason; ///< why not, unless ok
     double median_ms = 0.0;
     double min_ms = 0.0;
-    double ratio = 0.0;     ///< median over the rounds of (row's kernel time / rival's time): below 1 the kernel wins
-    double max_error = 0.0; ///< largest difference of the rival's picture from the device's, relative to 1e-3 + value
+    double ratio = 0.0; ///< median over the rounds of (row's kernel time / rival's time): below 1 the kernel wins
+    /// Largest difference of the rival's picture from the device's, relative to 1e-3 + value; of a pre-filter as
+    /// BenchResult::max_error.
+    double max_error = 0.0;
     int rounds = 0;
 };
 
-/// One row of the table: one kernel at one size.
+/// One row of the table: one kernel at one size; or pre-filtering one environment (prefilter_bench.h).
 struct BenchResult {
-    std::string key; ///< stable: "shade.blinn_phong.lambert.distant1.3840x2160"; JSON `kernel`
+    std::string key; ///< stable: "shade.blinn_phong.lambert.distant1.3840x2160", "prefilter.1024x512"; JSON `kernel`
     BenchStatus status = BenchStatus::ok;
     std::string reason; ///< why not, unless ok
     int width = 0;
@@ -64,10 +66,12 @@ struct BenchResult {
     /// of the process, which loads the driver's compiler too: one that is thrown away goes before all rows.
     double build_cold_ms = 0.0;
     double build_cached_ms = 0.0; ///< the same from that cache
+    /// Of a pre-filter: largest relative error at sampled vertices, against the reference's sums in double precision.
+    std::optional<double> max_error;
     std::vector<RivalResult> against;
 };
 
-/// A row of the deck's direct-light tables (models.md section 13) beside our own; one for every size it was timed at.
+/// A row of the deck's tables (models.md section 13) beside our own; one for every size it was timed at.
 struct DeckRow {
     std::string name;     ///< "Blinn-Oren-Nayar, one light"
     std::string baseline; ///< "Blinn-Lambert, one light"
@@ -90,15 +94,34 @@ struct LayerGrowth {
     double per_layer = 0.0; ///< (ratio - 1) / (layers - 1): what each further layer costs, in single layers; 0 for one
 };
 
+/// The deck's heaviest row at the deck's size: on its console's GPU, and here.
+struct BenchHeadline {
+    std::string key; ///< of our row
+    double deck_ms = 0.0;
+    double median_ms = 0.0;
+};
+
+/// A limit of speed, on one paired ratio or one time.
+struct SpeedLimit {
+    std::string name;
+    bool in_milliseconds = false; ///< else a ratio
+    double limit = 0.0;
+    double value = 0.0;
+
+    [[nodiscard]] bool met() const { return value <= limit; }
+};
+
 struct BenchReport {
     std::vector<BenchResult> results;
     std::vector<DeckRow> deck;
     std::vector<LayerGrowth> layers; ///< sizes together, shallow first; only what was timed
+    std::optional<BenchHeadline> headline;
+    std::vector<SpeedLimit> limits; ///< only on what was timed, at the deck's size
 };
 
 struct BenchOptions {
     std::string filter; ///< regular expression (ECMAScript) searched in the key; empty: every row
-    int width = 0;      ///< 0: each row's own size; else every row at this size
+    int width = 0;      ///< 0: each row's own size; else every row of shading at this size
     int height = 0;
     int rounds = 15;      ///< at least this many rounds
     double seconds = 1.5; ///< time budget per row; a group of rows that run in turns has the sum

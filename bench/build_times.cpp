@@ -1,53 +1,14 @@
 #include "bench/build_times.h"
 
-#include "host/base/error.h"
-#include "host/shading/kernel_library.h"
+#include "bench/fresh_build.h"
 #include "host/shading/shader.h"
 
-#include <fmt/format.h>
-
 #include <chrono>
-#include <random>
 #include <string>
-#include <system_error>
 
 namespace clshade {
 
 namespace {
-
-/// A folder of our own, gone with its content at the end.
-class TemporaryFolder {
-  public:
-    explicit TemporaryFolder(const std::string& name) : path_(std::filesystem::temp_directory_path() / name) {
-        std::error_code error;
-        std::filesystem::create_directories(path_, error);
-        if (error) {
-            throw RuntimeFailure(fmt::format("{}: cannot make a folder for the cold build ({}); set TMPDIR",
-                                             path_.string(), error.message()));
-        }
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    TemporaryFolder(TemporaryFolder&&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
-/// The kernel sources, the main one with a type that nobody uses: drivers cache what the preprocessor leaves, so a
-/// comment would not do.
-SourceSet marked_sources(const std::filesystem::path& kernel_dir, const std::string& mark) {
-    SourceSet sources = kernel_sources(kernel_dir);
-    const std::string main = "shade.cl";
-    sources.add(main, fmt::format("{}\ntypedef int {};\n", sources.text(main), mark), main);
-    return sources;
-}
 
 double first_launch_ms(Device& device, Frame& frame, const SourceSet& sources, const std::filesystem::path& cache,
                        int lanes) {
@@ -63,13 +24,13 @@ double first_launch_ms(Device& device, Frame& frame, const SourceSet& sources, c
 
 } // namespace
 
-BuildTimes measure_build(Device& device, const BenchScene& scene, const std::filesystem::path& kernel_dir, int lanes) {
-    std::random_device entropy;
-    const std::string mark = fmt::format("clshade_bench_{:08x}{:08x}", entropy(), entropy());
+BuildTimes measure_build(Device& device, const BenchScene& scene, const std::filesystem::path& kernel_dir, int lanes,
+                         const std::optional<BoundEnvironment>& environment) {
+    const std::string mark = new_mark();
     const TemporaryFolder folder(mark);
     Frame frame = make_bench_frame(64, 64, 1);
-    apply_scene(frame, scene);
-    const SourceSet sources = marked_sources(kernel_dir, mark);
+    apply_scene(frame, scene, environment);
+    const SourceSet sources = marked_sources(kernel_dir, {"shade.cl", "ambient_brdf.cl"}, mark);
     BuildTimes times;
     times.cold_ms = first_launch_ms(device, frame, sources, folder.path(), lanes);
     times.cached_ms = first_launch_ms(device, frame, sources, folder.path(), lanes);

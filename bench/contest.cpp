@@ -187,8 +187,8 @@ RivalEntry RivalMaker::reference(const BenchScene& scene) {
     const auto image = std::make_shared<reference::Image>();
     RivalEntry entry;
     entry.slow = true;
-    entry.run = [image, scene, frame = frame_] {
-        apply_scene(*frame, scene);
+    entry.run = [image, scene, environment = frame_->environment, frame = frame_] {
+        apply_scene(*frame, scene, environment);
         const auto start = std::chrono::steady_clock::now();
         *image = reference::shade(*frame, {}, 1);
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -1,6 +1,7 @@
 // The C++ rivals on the planes of a bench frame.
 #pragma once
 
+#include "bench/host_kernels.h"
 #include "bench/simd/rivals.h"
 #include "bench/worker_pool.h"
 #include "host/base/plane_slab.h"
@@ -13,12 +14,6 @@ namespace clshade {
 
 /// Lights of a frame as the C++ rivals take them. Throws std::invalid_argument if one is not distant.
 [[nodiscard]] std::vector<rivals::DistantLight> distant_lights(const Frame& frame);
-
-/// The instruction sets that were compiled and that this processor runs, widest first: "x86-64-v4" (AVX-512),
-/// "x86-64-v3" (AVX2), "baseline".
-[[nodiscard]] std::vector<std::string_view> instruction_sets();
-
-struct HostKernels;
 
 /// Runs the rivals with the widest instructions the processor has. Refers to the frame, whose planes must stay, and to
 /// the planes to write, R, G, B and alpha; the lights are handed over so that the frame's own may change.

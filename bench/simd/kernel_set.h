@@ -15,5 +15,6 @@ namespace clshade::rivals {
 void CLSHADE_RIVALS(openmp_simd)(const Planes& planes, const Scene& scene, size_t begin, size_t end);
 void CLSHADE_RIVALS(hand_simd)(const Planes& planes, const Scene& scene, size_t begin, size_t end);
 void CLSHADE_RIVALS(stream)(const Planes& planes, size_t begin, size_t end);
+void CLSHADE_RIVALS(filter)(const SkySource& source, const SkyLobe& lobe, float* out, size_t begin, size_t end);
 
 } // namespace clshade::rivals

@@ -36,4 +36,29 @@ using ShadeRange = void (*)(const Planes& planes, const Scene& scene, size_t beg
 /// Moves the same bytes: every output plane k gets (k + 1) times the sum of the input planes.
 using StreamRange = void (*)(const Planes& planes, size_t begin, size_t end);
 
+/// A lat-long picture to filter (host/environment/filter_layout.h): three planes of height x width texels, and the
+/// angles of its rows (polar) and columns (azimuth).
+struct SkySource {
+    int width;
+    int height;
+    const float* red;
+    const float* green;
+    const float* blue;
+    const float* row_sine;
+    const float* row_cosine;
+    const float* row_area; ///< solid angle of a texel [sr]
+    const float* column_sine;
+    const float* column_cosine;
+};
+
+struct SkyLobe {
+    float half_exponent; ///< n/2
+    float reach;         ///< (1 - R.w)/2 beyond which texels are left out; 1: none
+    bool cosine;         ///< the lobe is max(0, R.w) instead
+    int cells;           ///< of the octahedral grid
+};
+
+/// Filters for the vertices [begin, end) of the grid; `out` is RGB interleaved.
+using FilterRange = void (*)(const SkySource& source, const SkyLobe& lobe, float* out, size_t begin, size_t end);
+
 } // namespace clshade::rivals

@@ -1,6 +1,7 @@
 #include "bench/benchmark.h"
 #include "host/base/error.h"
 #include "host/cli/baseline.h"
+#include "host/cli/bench_report.h"
 #include "host/cli/lane_store.h"
 #include "host/cli/log_level.h"
 #include "host/cli/progress.h"
@@ -59,178 +60,6 @@ BenchOptions options_of(const BenchFlags& flags, Session& session) {
     return options;
 }
 
-std::string ratio_text(const RivalResult& rival) {
-    return rival.status == BenchStatus::ok ? fmt::format("{:.3f}", rival.ratio) : std::string(name_of(rival.status));
-}
-
-std::string kernels_text(const BenchReport& bench) {
-    Table table({{"kernel", Align::left},
-                 {"lanes"},
-                 {"median [ms]"},
-                 {"min [ms]"},
-                 {"spread [%]"},
-                 {"Mpix/s"},
-                 {"B/pix"},
-                 {"GB/s"},
-                 {"build cold [ms]"},
-                 {"cached [ms]"}});
-    for (const BenchResult& row : bench.results) {
-        if (row.status != BenchStatus::ok) {
-            table.add_row({row.key, std::string(name_of(row.status))});
-            continue;
-        }
-        table.add_row({row.key, std::to_string(row.lanes), format_ms(row.median_ms), format_ms(row.min_ms),
-                       fmt::format("{:.1f}", 100.0 * row.spread), fmt::format("{:.0f}", row.mpix_per_s),
-                       fmt::format("{:.0f}", row.bytes_per_pixel), fmt::format("{:.2f}", row.gb_per_s),
-                       format_ms(row.build_cold_ms), format_ms(row.build_cached_ms)});
-    }
-    return table.text();
-}
-
-std::string rivals_text(const BenchReport& bench) {
-    Table table({{"kernel", Align::left}, {"against", Align::left}, {"rival median [ms]"}, {"kernel/rival"}});
-    for (const BenchResult& row : bench.results) {
-        for (const RivalResult& rival : row.against) {
-            table.add_row({row.key, rival.name, rival.status == BenchStatus::ok ? format_ms(rival.median_ms) : "",
-                           ratio_text(rival)});
-        }
-    }
-    return table.empty() ? std::string() : "\n" + table.text();
-}
-
-std::string size_text(int width, int height) {
-    return fmt::format("{}x{}", width, height);
-}
-
-std::string deck_text(const BenchReport& bench) {
-    Table table({{"row of the deck", Align::left},
-                 {"against", Align::left},
-                 {"deck"},
-                 {"here"},
-                 {"here [ms]"},
-                 {"size", Align::left}});
-    for (const DeckRow& row : bench.deck) {
-        const std::string deck = fmt::format("{:.3f}", row.deck_ratio);
-        if (row.status == BenchStatus::ok && row.ratio) {
-            table.add_row({row.name, row.baseline, deck, fmt::format("{:.3f}", *row.ratio), format_ms(row.median_ms),
-                           size_text(row.width, row.height)});
-        } else {
-            table.add_row({row.name, row.baseline, deck, std::string(name_of(row.status))});
-        }
-    }
-    return table.empty() ? std::string() : "\n" + table.text();
-}
-
-std::string layers_text(const BenchReport& bench) {
-    Table table({{"layers"}, {"median [ms]"}, {"to one layer"}, {"each further layer"}, {"size", Align::left}});
-    for (const LayerGrowth& row : bench.layers) {
-        table.add_row({std::to_string(row.layers), format_ms(row.median_ms), fmt::format("{:.3f}", row.ratio),
-                       row.layers > 1 ? fmt::format("{:+.3f}", row.per_layer) : "", size_text(row.width, row.height)});
-    }
-    const bool grows =
-        std::any_of(bench.layers.begin(), bench.layers.end(), [](const LayerGrowth& row) { return row.layers > 1; });
-    return grows ? "\n" + table.text() : std::string();
-}
-
-std::string reasons_text(const BenchReport& bench) {
-    std::string text;
-    const auto add = [&](const std::string& who, BenchStatus status, const std::string& reason) {
-        if (status != BenchStatus::ok) {
-            text += fmt::format("{}: {}: {}\n", who, name_of(status), reason);
-        }
-    };
-    for (const BenchResult& row : bench.results) {
-        add(row.key, row.status, row.reason);
-        for (const RivalResult& rival : row.against) {
-            add(row.key + " against " + rival.name, rival.status, rival.reason);
-        }
-    }
-    for (const DeckRow& row : bench.deck) {
-        add(row.name, row.status, row.reason);
-    }
-    return text.empty() ? text : "\n" + text;
-}
-
-nlohmann::json json_of(const RivalResult& rival) {
-    nlohmann::json result = {{"status", name_of(rival.status)}};
-    if (rival.status != BenchStatus::ok) {
-        result["reason"] = rival.reason;
-        return result;
-    }
-    result["median_ms"] = rival.median_ms;
-    result["min_ms"] = rival.min_ms;
-    result["ratio"] = rival.ratio;
-    result["max_error"] = rival.max_error;
-    result["rounds"] = rival.rounds;
-    return result;
-}
-
-nlohmann::json json_of(const BenchResult& row) {
-    nlohmann::json against = nlohmann::json::object();
-    for (const RivalResult& rival : row.against) {
-        against[rival.name] = json_of(rival);
-    }
-    return {{"kernel", row.key},
-            {"width", row.width},
-            {"height", row.height},
-            {"lights", row.lights},
-            {"environments", row.environments},
-            {"layers", row.layers},
-            {"lanes", row.lanes},
-            {"rounds", row.rounds},
-            {"median_ms", row.median_ms},
-            {"min_ms", row.min_ms},
-            {"spread", row.spread},
-            {"bytes_per_pixel", row.bytes_per_pixel},
-            {"mpix_per_s", row.mpix_per_s},
-            {"gb_per_s", row.gb_per_s},
-            {"build_cold_ms", row.build_cold_ms},
-            {"build_cached_ms", row.build_cached_ms},
-            {"against", against}};
-}
-
-nlohmann::json json_of(const DeckRow& row) {
-    nlohmann::json result = {{"name", row.name},
-                             {"baseline", row.baseline},
-                             {"deck_ratio", row.deck_ratio},
-                             {"status", name_of(row.status)}};
-    if (row.status != BenchStatus::ok) {
-        result["reason"] = row.reason;
-    }
-    if (row.ratio) {
-        result["width"] = row.width;
-        result["height"] = row.height;
-        result["median_ms"] = row.median_ms;
-        result["ratio"] = *row.ratio;
-    }
-    return result;
-}
-
-nlohmann::json json_of(const LayerGrowth& row) {
-    return {{"width", row.width},         {"height", row.height}, {"layers", row.layers},
-            {"median_ms", row.median_ms}, {"ratio", row.ratio},   {"per_layer", row.per_layer}};
-}
-
-void add_to(JsonReport& report, const BenchReport& bench) {
-    nlohmann::json deck = nlohmann::json::array();
-    for (const DeckRow& row : bench.deck) {
-        deck.push_back(json_of(row));
-    }
-    report.set("deck", deck);
-    nlohmann::json layers = nlohmann::json::array();
-    for (const LayerGrowth& row : bench.layers) {
-        layers.push_back(json_of(row));
-    }
-    report.set("layer_growth", layers);
-    for (const BenchResult& row : bench.results) {
-        if (row.status == BenchStatus::ok) {
-            report.add(json_of(row));
-        } else {
-            report.add(json_of(row), name_of(row.status), row.reason);
-        }
-    }
-}
-
 ExitCode tune(const BenchFlags& flags, Session& session, JsonReport& report) {
     Progress progress(flags.common, 1);
     const LaneTuning tuning =
@@ -286,11 +115,10 @@ ExitCode bench(const BenchFlags& flags, JsonReport& report) {
             progress.update(what, static_cast<double>(done) / std::max(total, 1));
         });
     progress.clear();
-    add_to(report, result);
+    add_bench(report, result);
     if (!flags.common.quiet) {
-        fmt::print("{}/{}, driver {}\n\n{}{}{}{}{}", session.info().platform, session.info().name,
-                   session.info().driver, kernels_text(result), rivals_text(result), deck_text(result),
-                   layers_text(result), reasons_text(result));
+        fmt::print("{}/{}, driver {}\n\n{}", session.info().platform, session.info().name, session.info().driver,
+                   bench_text(result, session.info()));
     }
     ExitCode code = ExitCode::ok;
     for (const BenchResult& row : result.results) {
@@ -314,9 +142,8 @@ ExitCode bench(const BenchFlags& flags, JsonReport& report) {
 
 Action declare_bench(CLI::App& app) {
     auto flags = std::make_shared<BenchFlags>();
-    app.add_option("--filter", flags->filter, "only kernels whose key this regular expression finds")
-        ->type_name("REGEX");
-    app.add_option("--size", flags->size, "picture size for every row, in pixels. Default: each row's own")
+    app.add_option("--filter", flags->filter, "only rows whose key this regular expression finds")->type_name("REGEX");
+    app.add_option("--size", flags->size, "picture size for every row of shading, in pixels. Default: each row's own")
         ->type_name("WxH");
     app.add_option("--compare", flags->baseline, "compare with an earlier --json report; exit code 3 if slower")
         ->type_name("BASELINE.json");
