@@ -13,6 +13,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -94,15 +95,18 @@ class Integrator {
             return 1;
         }
         const double size = std::numbers::pi / picture_->height;
-        const double log_nh = std::log(std::min(angles.nh + size, 1.0)); // the texel's brightest corner, or nearly
+        // H turns by dL/|L + E| = dL/(2 EH): the brightest place in the texel is that much nearer to N than its centre.
+        const double eh = std::max(angles.eh, 0.05);
+        const double nearer = 0.5 * std::numbers::sqrt2 * size / (2.0 * eh);
+        const double log_nh = std::log(std::cos(std::max(std::acos(std::min(angles.nh, 1.0)) - nearer, 0.0)));
         double parts = 1.0;
         for (const LayerValues& layer : material.layers()) {
             const double n = sharpest_exponent(layer);
-            const double end = layer.specular == SpecularModel::blinn_phong_anisotropic
-                                   ? std::min(layer.shininess_u, layer.shininess_v)
-                                   : n;
-            if (n > 0.0 && -end * log_nh < lobe_end) {
-                const double deviation = 2.0 / std::sqrt(n) * std::max(angles.eh, 0.05);
+            const double here = layer.specular == SpecularModel::blinn_phong_anisotropic
+                                    ? anisotropic_exponent(angles, layer.frame, layer.shininess_u, layer.shininess_v)
+                                    : n;
+            if (n > 0.0 && -here * log_nh < lobe_end) {
+                const double deviation = 2.0 / std::sqrt(n) * eh;
                 parts = std::max(parts, std::ceil(size * texels_per_lobe / deviation));
             }
         }
@@ -136,12 +140,16 @@ struct Place {
     int y;
 };
 
-std::vector<Place> places_with_surface(const PreparedFrame& prepared) {
+std::vector<Place> places_to_compare(const PreparedFrame& prepared) {
     const Frame& frame = prepared.frame();
     std::vector<Place> places;
     for (int y = 0; y < frame.planes.height(); ++y) {
         for (int x = 0; x < frame.planes.width(); ++x) {
-            if (all_finite(prepared, x, y) && read_surface(frame, x, y)) {
+            if (!all_finite(prepared, x, y)) {
+                continue;
+            }
+            const std::optional<Surface> surface = read_surface(frame, x, y);
+            if (surface && glm::dot(surface->normal, surface->eye) > 0.0) {
                 places.push_back({x, y});
             }
         }
@@ -223,7 +231,7 @@ std::vector<GroundTruthSample> ground_truth(const Frame& frame, int samples, std
     const PreparedFrame prepared(frame);
     const Picture picture = picture_to_integrate(*environment.image);
     const Integrator integrator(picture, environment);
-    const std::vector<Place> places = drawn(places_with_surface(prepared), samples, seed);
+    const std::vector<Place> places = drawn(places_to_compare(prepared), samples, seed);
     std::vector<GroundTruthSample> result(places.size());
     const auto integrate = [&](int i) {
         const auto at = static_cast<std::size_t>(i);

@@ -23,10 +23,11 @@ struct GroundTruthSample {
     double mean_luminance = 0.0; ///< of the environment
 };
 
-/// Integrates at `samples` pixels with a surface, drawn without repetition (all where there are fewer), in the order of
-/// rows; the same seed draws the same ones. The integral runs over the picture's texels, halved to 512 rows where it is
-/// finer, and over parts of texels where a lobe is too narrow for them. Takes up to 0.2 s a pixel. Throws UsageError if
-/// the frame has no environment or only one that was pre-filtered before.
+/// Integrates at `samples` pixels, drawn without repetition (all where there are fewer), in the order of rows; the same
+/// seed draws the same ones. Only surfaces that face the eye count: from behind (interpolated normals) both sides are
+/// what their clamps make of it, and no truth. The integral runs over the picture's texels, halved to 512 rows where it
+/// is finer, and over parts of texels where a lobe is too narrow for them. Takes up to 0.5 s a pixel. Throws UsageError
+/// if the frame has no environment or only one that was pre-filtered before.
 [[nodiscard]] std::vector<GroundTruthSample> ground_truth(const Frame& frame, int samples, std::uint64_t seed,
                                                           int threads);
 
