@@ -1,5 +1,5 @@
-// An environment as a lat-long picture in memory: where its texels lie on the sphere, cleaning, halving, the built-in
-// studio. No files.
+// An environment as a lat-long picture in memory: where its texels lie on the sphere, cleaning, halving, doubling, the
+// built-in studio. No files.
 //
 // IMAGE FRAME. Directions in the picture's own frame are right-handed with z towards row 0. A texel's centre (x + 0.5,
 // y + 0.5) lies at u = (x + 0.5)/width, v = (y + 0.5)/height with u = 0.5 - atan2(d.y, d.x)/(2 pi), v = acos(d.z)/pi
@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,20 @@ void clean(LatLong& image);
 /// Half as wide and high: each texel the mean of four, weighted by their solid angles, so that the energy stays. Both
 /// sides must be even (std::invalid_argument).
 [[nodiscard]] LatLong halved(const LatLong& image);
+
+/// What `halved` does, row by row, for those who do not have the whole picture: the share of the upper of rows 2 y and
+/// 2 y + 1 of a picture of that size, and the row of half the length that both make.
+[[nodiscard]] double upper_share(int width, int height, int y);
+void halve_rows(std::span<const float> upper, std::span<const float> lower, double share, std::span<float> out);
+
+/// Twice as wide and high, bilinearly between texel centres: filter_layout.h, SOURCE. The width must be even
+/// (std::invalid_argument).
+[[nodiscard]] LatLong doubled(const LatLong& image);
+
+/// Rows of the picture that a lobe of exponent `shininess` is filtered from (filter_layout.h, SOURCE), given the size
+/// of the environment; and that picture. A sharper lobe's source can be halved on to a softer lobe's.
+[[nodiscard]] int source_height(int width, int height, double shininess);
+[[nodiscard]] LatLong filter_source(const LatLong& image, double shininess);
 
 /// The environment of scenes that name none: a studio by formula, `height` rows (at least 8), up axis y, camera looking
 /// along -z: large warm key soft box over the left shoulder, cool fill from the right, a strip light behind, dark
