@@ -35,13 +35,39 @@ std::vector<Group> groups_of(const Frame& frame, const ToleranceOverride& wanted
         const std::string model = model_key(material);
         auto found = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.model == model; });
         if (found == groups.end()) {
-            groups.push_back({model, wanted.apply(reference::default_tolerance(material)), {}});
+            groups.push_back(
+                {model, wanted.apply(reference::default_tolerance(material, frame.environment.has_value())), {}});
             found = groups.end() - 1;
         }
         found->materials.push_back(index++);
     }
-    groups.push_back({"no_surface", reference::Tolerance::plain(0.0, 0.0, 100.0), {-1}});
+    const bool background = frame.environment && frame.environment->background;
+    groups.push_back({"no_surface", reference::background_tolerance(background), {-1}});
     return groups;
+}
+
+// Where a plane's worst pixel differs, counted in the file's own pixels.
+std::string difference(std::string_view what, const Frame& frame, const reference::Comparison& comparison) {
+    const reference::Comparison::Worst& worst = comparison.worst;
+    return fmt::format("{} differs at ({}, {}): device {}, reference {}", what, worst.x + frame.data_window.x_min,
+                       worst.y + frame.data_window.y_min, worst.device, worst.reference);
+}
+
+// The environment's own planes, where they have been asked for.
+void compare_environment(const Frame& frame, const ShadedImage& shaded, const reference::Image& expected,
+                         const reference::RoundingScale& scale, const std::vector<std::uint8_t>& selected,
+                         CheckResult& result) {
+    const auto found = std::find(shaded.plane_names.begin(), shaded.plane_names.end(), "environment.R");
+    if (found == shaded.plane_names.end()) {
+        return;
+    }
+    const int plane = static_cast<int>(found - shaded.plane_names.begin());
+    const reference::Comparison share =
+        reference::compare(shaded.planes, expected, scale, result.tolerance, selected, plane);
+    if (!reference::passes(share, result.tolerance)) {
+        result.pass = false;
+        result.trouble = difference("AOV environment", frame, share);
+    }
 }
 
 nlohmann::json worst_of(const Frame& frame, const ShadedImage& shaded, const reference::Image& expected,
@@ -105,10 +131,9 @@ std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shad
             reference::compare(shaded.planes, expected, {}, alpha_tolerance, selected, alpha_plane, 1);
         if (!reference::passes(alpha, alpha_tolerance)) {
             result.pass = false;
-            result.trouble = fmt::format(
-                "alpha differs at ({}, {}): device {}, reference {}", alpha.worst.x + frame.data_window.x_min,
-                alpha.worst.y + frame.data_window.y_min, alpha.worst.device, alpha.worst.reference);
+            result.trouble = difference("alpha", frame, alpha);
         }
+        compare_environment(frame, shaded, expected, scale, selected, result);
         result.worst = worst_of(frame, shaded, expected, result.comparison);
         results.push_back(std::move(result));
     }

@@ -26,7 +26,7 @@ struct ToleranceOverride {
 
 /// The verdict on the pixels of one stack of models.
 struct CheckResult {
-    std::string model; ///< model_key; "no_surface" for the pixels that must stay 0
+    std::string model; ///< model_key; "no_surface" for the pixels without one: 0, or the background
     reference::Tolerance tolerance;
     reference::Comparison comparison;
     bool pass = false;
@@ -34,8 +34,9 @@ struct CheckResult {
     nlohmann::json worst; ///< x, y, inputs, device, reference; null if no pixel was compared
 };
 
-/// Shades `frame` with the reference on `threads` threads and compares it with what the device made of it. One result
-/// per model_key that claims a pixel, in the order of the materials.
+/// Compares what the device made of `frame` with the reference, whose rounding scale is found on `threads` threads:
+/// radiance, alpha and, where both have it, the environment's own AOV. One result per model_key that claims a pixel, in
+/// the order of the materials.
 [[nodiscard]] std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded,
                                                    const reference::Image& expected, const ToleranceOverride& wanted,
                                                    int threads);

@@ -3,11 +3,14 @@
 #include "host/base/error.h"
 #include "host/cli/frame_input.h"
 #include "host/cli/frame_output.h"
+#include "host/gbuffer/environment_binding.h"
 #include "host/images/image_writer.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace clshade::cli {
@@ -20,10 +23,22 @@ constexpr std::array<const char*, 3> kinds{"device", "reference", "error"};
 
 } // namespace
 
-CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, int threads) {
+CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, std::uint64_t max_memory,
+                            int threads) {
     const ChosenScene chosen = choose_scene(scene);
-    LoadedFrame loaded = load_frame(plan_input(file, chosen.scene, scene.view), chosen.scene, threads);
-    return {std::move(loaded.frame), std::move(loaded.warnings)};
+    PlannedInput planned = plan_input(file, chosen.scene, scene.view);
+    CheckInput input;
+    if (chosen.scene.environment) { // before the pixels, which may be many
+        input.environment = read_environment(chosen.scene, max_memory);
+        input.warnings = input.environment->warnings;
+    }
+    LoadedFrame loaded = load_frame(std::move(planned), chosen.scene, threads);
+    if (input.environment) {
+        attach_environment(loaded.frame, chosen.scene, input.environment->image, input.environment->maps);
+    }
+    input.frame = std::move(loaded.frame);
+    std::move(loaded.warnings.begin(), loaded.warnings.end(), std::back_inserter(input.warnings));
+    return input;
 }
 
 void check_dump_path(const std::filesystem::path& file, const std::filesystem::path& input) {

@@ -1,24 +1,29 @@
 // The parts of `check` that touch image files: INPUT and --dump.
 #pragma once
 
+#include "host/cli/environment_input.h"
 #include "host/cli/options.h"
 #include "host/gbuffer/frame.h"
 #include "host/reference/reference.h"
 #include "host/shading/shader.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace clshade::cli {
 
 struct CheckInput {
-    Frame frame;
+    Frame frame; ///< its environment still lacks the maps that kernels read
+    std::optional<EnvironmentInput> environment;
     std::vector<std::string> warnings;
 };
 
-/// Reads INPUT as `shade` would. In builds without image files: throws UsageError.
-[[nodiscard]] CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, int threads);
+/// Reads INPUT and the scene's environment as `shade` would. In builds without image files: throws UsageError.
+[[nodiscard]] CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene,
+                                          std::uint64_t max_memory, int threads);
 
 /// Throws as check_output_path does, and if --dump would overwrite the input.
 void check_dump_path(const std::filesystem::path& file, const std::filesystem::path& input);

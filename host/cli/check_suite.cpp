@@ -105,10 +105,13 @@ std::vector<SuiteCase> check_suite(std::uint64_t seed) {
     add_stacks(suite);
     add_random_stacks(suite, seed);
     add_presets(suite);
+    const std::vector<SuiteCase> more = environment_suite(seed);
+    suite.insert(suite.end(), more.begin(), more.end());
     return suite;
 }
 
-Frame frame_of(const SuiteCase& suite_case, int width, int height, std::uint64_t seed) {
+Frame frame_of(const SuiteCase& suite_case, int width, int height, std::uint64_t seed,
+               const std::shared_ptr<const LatLong>& image, const std::shared_ptr<const FilteredSet>& maps) {
     Frame frame = random_frame(width, height, suite_case.shape, seed);
     if (!suite_case.preset.empty()) {
         // Presets hold constants only: what they are bound to does not matter, so they go onto this frame as they are.
@@ -120,6 +123,14 @@ Frame frame_of(const SuiteCase& suite_case, int width, int height, std::uint64_t
         const Scene scene = parse_scene(scene_text, "preset " + suite_case.preset, {}, {});
         frame.materials = frame_from_planes(frame.planes, frame.plane_names, scene, frame.file).materials;
     }
+    if (suite_case.environment) {
+        add_random_environment(frame, image, *suite_case.environment, seed);
+        frame.environment->background = suite_case.background;
+        frame.environment->maps = maps;
+    }
+    if (!suite_case.lights) {
+        frame.lights.clear();
+    }
     return frame;
 }
 
@@ -129,7 +140,9 @@ std::string name_of(const SuiteCase& suite_case, const Frame& frame) {
 }
 
 std::string layer_of(const SuiteCase& suite_case, const Frame& frame) {
-    return suite_case.label.empty() ? model_key(frame.materials.front()) : suite_case.label;
+    constexpr std::size_t longest = 200; // leaves room for "reference.R"
+    const std::string name = name_of(suite_case, frame);
+    return suite_case.label.empty() || (suite_case.environment && name.size() <= longest) ? name : suite_case.label;
 }
 
 } // namespace clshade::cli

@@ -1,6 +1,7 @@
 #include "host/cli/frame_input.h"
 
 #include "host/base/hash.h"
+#include "host/cli/environment_input.h"
 #include "host/cli/table.h"
 #include "host/images/image_reader.h"
 #include "host/scene/metal_table.h"
@@ -64,6 +65,7 @@ ChosenScene choose_scene(const SceneOptions& options) {
         identity += '\n';
         identity += text_of(table.string());
     }
+    chosen.environment = environment_files(chosen.scene);
     chosen.hash = hash_hex(identity + "\n--model " + options.model);
     return chosen;
 }

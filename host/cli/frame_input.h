@@ -16,10 +16,11 @@ namespace clshade::cli {
 /// A scene and what the output says about it.
 struct ChosenScene {
     Scene scene;
-    std::string name;                          ///< file name, or "default"
-    std::string hash;                          ///< of the file's text, the overrides and the tables
-    std::string file;                          ///< empty for the default scene
-    std::vector<std::filesystem::path> tables; ///< n,k files of metals
+    std::string name;                               ///< file name, or "default"
+    std::string hash;                               ///< of the file's text, the overrides and the tables
+    std::string file;                               ///< empty for the default scene
+    std::vector<std::filesystem::path> tables;      ///< n,k files of metals
+    std::vector<std::filesystem::path> environment; ///< files of the environment; not in the hash
 };
 
 /// Reads --scene, or takes the default scene; --set and --model applied. Throws like read_scene.

@@ -1,6 +1,7 @@
 #include "host/cli/frame_output.h"
 
 #include "host/base/error.h"
+#include "host/base/hash.h"
 #include "host/cli/options.h"
 #include "host/images/image_reader.h"
 
@@ -75,7 +76,7 @@ glm::dmat4 world_to_camera(const glm::dmat3& camera_to_world, const glm::dvec3& 
 }
 
 OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, const ChosenScene& scene,
-                        const DeviceInfo& device) {
+                        const EnvironmentInput* environment, const DeviceInfo& device) {
     OutputImage image;
     image.data_window = loaded.frame.data_window;
     image.display_window = loaded.frame.display_window;
@@ -98,11 +99,16 @@ OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, co
         {"clshade/device", device.platform + "/" + device.name},
         {"clshade/driver", device.driver},
         {"clshade/scene", scene.name},
-        {"clshade/scene_hash", scene.hash},
+        // What decides the picture beside the G-buffer: an environment's texels as much as the scene's text.
+        {"clshade/scene_hash", environment == nullptr ? scene.hash : hash_hex(scene.hash + environment->hash)},
         {"clshade/kernel", shaded.identity},
         {"clshade/camera", loaded.camera_source},
         {"clshade/normal_space", loaded.frame.normal_space == NormalSpace::world ? "world" : "camera"},
     };
+    if (environment != nullptr) {
+        image.attributes["clshade/environment"] = environment->name;
+        image.attributes["clshade/environment_hash"] = environment->hash;
+    }
     add_matrices(image, loaded);
     return image;
 }

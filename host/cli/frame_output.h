@@ -1,6 +1,7 @@
 // From a shaded frame to an image file.
 #pragma once
 
+#include "host/cli/environment_input.h"
 #include "host/cli/frame_input.h"
 #include "host/images/image_writer.h"
 #include "host/shading/shader.h"
@@ -10,9 +11,10 @@
 
 namespace clshade::cli {
 
-/// Everything shaded, everything kept, and attributes that tell how it was made. Refers to both arguments' planes.
+/// Everything shaded, everything kept, and attributes that tell how it was made. `environment` may be null. Refers to
+/// the first two arguments' planes.
 [[nodiscard]] OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, const ChosenScene& scene,
-                                      const DeviceInfo& device);
+                                      const EnvironmentInput* environment, const DeviceInfo& device);
 
 /// True for .png in any case.
 [[nodiscard]] bool is_png(const std::filesystem::path& file);

@@ -22,7 +22,9 @@ std::string reason_to_skip(const FrameJob& job, const ChosenScene& scene, const 
         return "the output exists (--no-clobber)";
     }
     std::vector<std::filesystem::path> sources{job.input, scene.file};
-    sources.insert(sources.end(), scene.tables.begin(), scene.tables.end());
+    for (const auto& more : {scene.tables, scene.environment}) {
+        sources.insert(sources.end(), more.begin(), more.end());
+    }
     if (settings.update_only && is_up_to_date(job.output, sources)) {
         return "the output is up to date (-u)";
     }
@@ -30,7 +32,7 @@ std::string reason_to_skip(const FrameJob& job, const ChosenScene& scene, const 
 }
 
 std::string plan_text(const PlannedInput& input, const FrameJob& job, const ChosenScene& scene,
-                      const DeviceInfo& device) {
+                      const EnvironmentInput* environment, const DeviceInfo& device) {
     const Frame& frame = input.plan.frame;
     std::string text =
         fmt::format("would shade {} -> {}\n  {}x{} pixels, {} planes read of {} channels\n"
@@ -38,6 +40,10 @@ std::string plan_text(const PlannedInput& input, const FrameJob& job, const Chos
                     job.input.string(), job.output.string(), frame.data_window.width(), frame.data_window.height(),
                     input.plan.channels.size(), input.layout.channels.size(), camera_source(input, scene.scene),
                     scene.name, frame.lights.size(), device.platform, device.name);
+    text += fmt::format("  environment: {}{}\n",
+                        environment == nullptr ? "none"
+                                               : fmt::format("{}, {}", environment->name, environment->description()),
+                        scene.scene.background ? ", shown as background" : "");
     for (const BoundMaterial& material : frame.materials) {
         text += fmt::format("  material {}: {}\n", material.name, model_key(material));
     }
@@ -65,11 +71,14 @@ double sum_of(const std::vector<KernelTime>& kernels) {
 
 } // namespace
 
-FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const ShadeSettings& settings, Session& session,
-                         Progress& progress) {
+FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, RunEnvironment& environment,
+                         const ShadeSettings& settings, Session& session, Progress& progress) {
     FrameOutcome outcome;
     refuse_same_file(job.output, job.input);
     refuse_same_file(job.output, scene.file);
+    for (const std::filesystem::path& file : scene.environment) {
+        refuse_same_file(job.output, file);
+    }
     if (!settings.dry_run) {
         check_output_path(job.output);
     }
@@ -84,13 +93,18 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
     outcome.width = planned.plan.frame.data_window.width();
     outcome.height = planned.plan.frame.data_window.height();
     outcome.stages.add("read", watch.lap());
+    const EnvironmentInput* surroundings = environment.read(outcome.stages);
     if (settings.dry_run) {
-        outcome.plan = plan_text(planned, job, scene, session.info());
+        outcome.plan = plan_text(planned, job, scene, surroundings, session.info());
         return outcome;
     }
+    watch.lap();
     Shader& shader = session.shader(settings.aovs);
     outcome.stages.add("device", watch.lap());
+    outcome.environment = environment.prefilter(shader, progress, outcome.stages);
+    watch.lap();
     LoadedFrame loaded = load_frame(std::move(planned), scene.scene, settings.threads);
+    environment.attach(loaded.frame);
     outcome.stages.add("read", watch.lap());
 
     progress.update("shading " + name, 0.3);
@@ -115,13 +129,14 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const Sh
     refuse_filtered_ids(job.input.string(), shaded.counts);
 
     progress.update("writing " + job.output.filename().string(), 0.6);
-    const OutputImage image = make_output(loaded, shaded, scene, session.info());
+    const OutputImage image = make_output(loaded, shaded, scene, surroundings, session.info());
     const std::uint64_t too_large = write_output(job.output, image, settings.exr);
     if (!job.preview.empty()) {
         write_png(job.preview, image);
     }
     outcome.stages.add("write", watch.lap());
-    outcome.warnings = std::move(loaded.warnings);
+    outcome.warnings = environment.take_warnings();
+    std::move(loaded.warnings.begin(), loaded.warnings.end(), std::back_inserter(outcome.warnings));
     std::move(of_materials.begin(), of_materials.end(), std::back_inserter(outcome.warnings));
     if (too_large > 0) {
         outcome.warnings.push_back(fmt::format("{}: {} values beyond 65504 do not fit in half and were clamped; write "

@@ -5,6 +5,7 @@
 #include "host/cli/frame_output.h"
 #include "host/cli/kernel_dump.h"
 #include "host/cli/progress.h"
+#include "host/cli/run_environment.h"
 #include "host/cli/run_stats.h"
 #include "host/cli/session.h"
 
@@ -43,14 +44,15 @@ struct FrameOutcome {
     StageTimes stages;
     std::vector<KernelTime> kernels;
     std::vector<std::string> warnings;
-    std::string plan;  ///< of a dry run: what would be done
-    std::string build; ///< "built" or "from the cache" for the first frame of a program, else empty
+    std::string plan;        ///< of a dry run: what would be done
+    std::string build;       ///< "built" or "from the cache" for the first frame of a program, else empty
+    std::string environment; ///< the same for the environment's maps
 };
 
-/// Shades one frame; the device is opened once header and scene have proved good. Throws UsageError, RuntimeFailure,
-/// DeviceError; nothing is written then.
-[[nodiscard]] FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, const ShadeSettings& settings,
-                                       Session& session, Progress& progress);
+/// Shades one frame; the device is opened once header, scene and environment have proved good. Throws UsageError,
+/// RuntimeFailure, DeviceError; nothing is written then.
+[[nodiscard]] FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, RunEnvironment& environment,
+                                       const ShadeSettings& settings, Session& session, Progress& progress);
 
 /// Throws UsageError when material ids are not whole numbers: such a plane has been filtered and would mix materials.
 void refuse_filtered_ids(const std::string& file, const PixelCounts& counts);

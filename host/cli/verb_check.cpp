@@ -2,6 +2,7 @@
 #include "host/cli/check_frame.h"
 #include "host/cli/check_image.h"
 #include "host/cli/check_suite.h"
+#include "host/cli/check_truth.h"
 #include "host/cli/log_level.h"
 #include "host/cli/progress.h"
 #include "host/cli/report_json.h"
@@ -29,6 +30,7 @@ struct CheckOptions {
     std::string abs;
     std::string percentile;
     std::string dump;
+    std::string ground_truth;
     std::string size = "192x192";
 };
 
@@ -59,7 +61,8 @@ struct Naming {
 class CheckRun {
   public:
     CheckRun(const CheckOptions& options, JsonReport& report)
-        : options_(options), report_(report), wanted_(override_of(options)), session_(options.common) {}
+        : options_(options), report_(report), wanted_(override_of(options)), session_(options.common),
+          session_with_aov_(options.common) {}
 
     ExitCode run() {
         if (!options_.dump.empty()) {
@@ -79,12 +82,16 @@ class CheckRun {
   private:
     void input() {
         Stopwatch watch;
-        CheckInput input = read_check_input(options_.input, options_.scene, options_.common.host_threads());
+        CheckInput input = read_check_input(options_.input, options_.scene, options_.common.max_memory,
+                                            options_.common.host_threads());
         StageTimes stages;
         stages.add("read", watch.lap());
         Progress progress(options_.common, 1);
+        if (input.environment) {
+            input.frame.environment->maps = filtered(*input.environment, progress, stages);
+        }
         progress.update("comparing " + options_.input);
-        compare(input.frame, {}, std::move(stages));
+        compare(input.frame, {}, session_, {}, std::move(stages));
         progress.clear();
         for (const std::string& warning : input.warnings) {
             spdlog::warn(warning);
@@ -95,21 +102,44 @@ class CheckRun {
         const Size size = parse_size("--size", options_.size);
         const std::vector<SuiteCase> suite = check_suite(options_.common.seed);
         Progress progress(options_.common, static_cast<int>(suite.size()));
+        EnvironmentInput surroundings;
+        surroundings.name = "studio";
+        surroundings.image = std::make_shared<const LatLong>(suite_environment());
         for (const SuiteCase& suite_case : suite) {
             Stopwatch watch;
-            Frame frame = frame_of(suite_case, size.width, size.height, options_.common.seed);
             StageTimes stages;
+            if (suite_case.environment) {
+                filtered(surroundings, progress, stages);
+                watch.lap();
+            }
+            Frame frame = frame_of(suite_case, size.width, size.height, options_.common.seed, surroundings.image,
+                                   surroundings.maps);
             stages.add("random G-buffer", watch.lap());
             const std::string name = name_of(suite_case, frame);
             progress.update("comparing " + name);
-            compare(frame, {name, layer_of(suite_case, frame)}, std::move(stages));
+            Session& session = suite_case.environment_aov ? session_with_aov_ : session_;
+            compare(frame, {name, layer_of(suite_case, frame)}, session, {.environment = suite_case.environment_aov},
+                    std::move(stages));
             progress.step();
         }
     }
 
-    void compare(Frame& frame, const Naming& naming, StageTimes stages) {
+    std::shared_ptr<const FilteredSet> filtered(EnvironmentInput& environment, Progress& progress, StageTimes& stages) {
+        if (environment.maps == nullptr) {
+            Stopwatch watch;
+            Shader& shader = session_.shader({});
+            stages.add("device", watch.lap());
+            const PrefilterReport report = prefilter_environment(environment, shader, progress, 0.0, 0.5);
+            spdlog::info("{}: maps {} in {:.0f} ms", environment.name, report.from_cache ? "from the cache" : "built",
+                         report.milliseconds);
+            stages.add("environment", watch.lap());
+        }
+        return environment.maps;
+    }
+
+    void compare(Frame& frame, const Naming& naming, Session& session, const AovSelection& aovs, StageTimes stages) {
         Stopwatch watch;
-        Shader& shader = session_.shader({});
+        Shader& shader = session.shader(aovs);
         report_.set_device(session_.info());
         stages.add("device", watch.lap());
         const ShadedImage shaded = shader.shade(frame);
@@ -121,7 +151,7 @@ class CheckRun {
                             frame.file, shaded.counts.fractional_ids));
         }
         const int threads = options_.common.host_threads();
-        const reference::Image expected = reference::shade(frame, {}, threads);
+        const reference::Image expected = reference::shade(frame, aovs, threads);
         stages.add("reference", watch.lap());
         for (CheckResult& result : check_frame(frame, shaded, expected, wanted_, threads)) {
             // Without INPUT the empty pixels of all random frames are the same; they stand in each one's row.
@@ -180,10 +210,46 @@ class CheckRun {
     JsonReport& report_;
     ToleranceOverride wanted_;
     Session session_;
+    Session session_with_aov_; // a shader has one set of outputs
     RunStats stats_;
     std::vector<CheckResult> results_;
     ErrorDump dump_;
 };
+
+ExitCode ground_truth(const CheckOptions& options, JsonReport& report) {
+    if (!options.dump.empty()) {
+        throw UsageError("--ground-truth: compares no pictures, so there is nothing for --dump; leave one of them out");
+    }
+    constexpr std::int64_t most = 1'000'000;
+    const int samples = static_cast<int>(parse_whole("--ground-truth", options.ground_truth, 1, most));
+    const TruthOptions wanted{samples, options.common.seed, options.common.host_threads()};
+    std::vector<reference::GroundTruthSample> all;
+    if (options.input.empty()) {
+        const std::vector<TruthCase> cases = truth_cases(options.common.host_threads());
+        Progress progress(options.common, static_cast<int>(cases.size()));
+        for (const TruthCase& truth_case : cases) {
+            progress.update("integrating " + truth_case.name);
+            append_samples(all, truth_case.frame, wanted, truth_case.name);
+            progress.step();
+        }
+    } else {
+        const CheckInput input =
+            read_check_input(options.input, options.scene, options.common.max_memory, options.common.host_threads());
+        Progress progress(options.common, 1);
+        progress.update("integrating " + options.input);
+        append_samples(all, input.frame, wanted, {});
+        progress.clear();
+        for (const std::string& warning : input.warnings) {
+            spdlog::warn(warning);
+        }
+    }
+    const std::vector<reference::GroundTruthSummary> rows = reference::summarise(all);
+    report.set("ground_truth", truth_json(rows));
+    if (!options.common.quiet) {
+        fmt::print("{}", truth_text(rows));
+    }
+    return ExitCode::ok;
+}
 
 } // namespace
 
@@ -196,14 +262,23 @@ Action declare_check(CLI::App& app) {
         ->type_name("X");
     app.add_option("--abs", o->abs, "largest absolute error, in units of radiance. Default: 0 if --rel is given")
         ->type_name("X");
-    app.add_option("--percentile", o->percentile, "share of pixels that must be within tolerance. Default: 99.99")
+    app.add_option("--percentile", o->percentile,
+                   "share of pixels that must be within tolerance. Default: 99.99, under an "
+                   "environment 99.9")
         ->type_name("PERCENT");
     app.add_option("--dump", o->dump, "write device.*, reference.* and error.* planes as EXR")->type_name("FILE");
+    app.add_option("--ground-truth", o->ground_truth,
+                   "compare nothing; integrate environment times BRDF by brute force at N pixels and report how far "
+                   "the real-time approximation is from that, per model and shininess")
+        ->type_name("N");
     app.add_option("--size", o->size, "size of the random G-buffers in pixels. Default: 192x192")->type_name("WxH");
     add_common_options(app, o->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);
         return with_report(options->common, "check", [&](JsonReport& report) {
+            if (!options->ground_truth.empty()) {
+                return ground_truth(*options, report);
+            }
             CheckRun run(*options, report);
             return run.run();
         });

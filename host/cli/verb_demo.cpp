@@ -5,12 +5,14 @@
 #include "host/cli/signals.h"
 #include "host/cli/verb.h"
 #include "host/demo/demo_gbuffer.h"
+#include "host/environment/lat_long.h"
 #include "host/images/image_writer.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -63,6 +65,31 @@ OutputImage gbuffer_image(const DemoFrame& frame) {
     return image;
 }
 
+// The picture that the scene's [environment] names. Its sky is the studio's: row 0 is overhead.
+void write_studio(const std::filesystem::path& file, int threads) {
+    const LatLong studio = built_in_studio();
+    PlaneSlab planes(studio.width, studio.height, 3);
+    OutputImage image;
+    image.data_window = {0, 0, studio.width - 1, studio.height - 1};
+    image.display_window = image.data_window;
+    constexpr std::array<const char*, 3> names{"R", "G", "B"};
+    std::size_t i = 0;
+    for (int y = 0; y < studio.height; ++y) {
+        for (int x = 0; x < studio.width; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                planes.at(c, x, y) = studio.rgb[i++];
+            }
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        image.channels.push_back({names.at(static_cast<std::size_t>(c)), &planes, c, true});
+    }
+    image.attributes = {{"software", fmt::format("clshade {} demo", CLSHADE_VERSION)}};
+    ExrSettings exr;
+    exr.threads = threads;
+    write_exr(file, image, exr);
+}
+
 std::vector<FrameJob> make_gbuffers(const std::filesystem::path& folder, const DemoOptions& options,
                                     Progress& progress) {
     const Size size = parse_size("--size", options.size);
@@ -98,6 +125,7 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
     const std::vector<FrameJob> jobs = make_gbuffers(folder, options, progress);
     const std::filesystem::path scene_file = folder / "scene.toml";
     write_text_file(scene_file, demo_scene_toml());
+    write_studio(folder / demo_environment, options.common.host_threads());
 
     SceneOptions scene_options;
     scene_options.file = scene_file.string();
@@ -105,9 +133,10 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
     ShadeSettings settings;
     settings.threads = options.common.host_threads();
     settings.exr.threads = settings.threads;
+    RunEnvironment environment(scene.scene, options.common.max_memory);
     RunStats stats;
     for (const FrameJob& job : jobs) {
-        const FrameOutcome outcome = shade_frame(job, scene, settings, session, progress);
+        const FrameOutcome outcome = shade_frame(job, scene, environment, settings, session, progress);
         stats.add(outcome.stages);
         stats.add(outcome.kernels);
         report.add({{"frame", *job.number},
@@ -127,12 +156,12 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
     if (!options.common.quiet) {
         const std::string last = fmt::format("{:04d}", frames);
         fmt::print("{} frames of {} on {}/{}\n\n{}\n"
-                   "G-buffers  {}/gbuffer.0001.exr to {}\nscene      {}\nshaded     {}/shaded.0001.exr to {}\n"
+                   "G-buffers  {}/gbuffer.0001.exr to {}\nscene      {}, {}/{}\nshaded     {}/shaded.0001.exr to {}\n"
                    "previews   {}/shaded.0001.png to {}\n\n"
                    "Again, by hand:\n  clshade shade '{}/gbuffer.####.exr' -o '{}/again.####.exr' --scene {}\n",
                    frames, options.size, session.info().platform, session.info().name, stats.text(), folder.string(),
-                   last, scene_file.string(), folder.string(), last, folder.string(), last, folder.string(),
-                   folder.string(), scene_file.string());
+                   last, scene_file.string(), folder.string(), demo_environment, folder.string(), last, folder.string(),
+                   last, folder.string(), folder.string(), scene_file.string());
     }
     return ExitCode::ok;
 }

@@ -17,7 +17,7 @@ namespace clshade::cli {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> aov_names{"diffuse", "specular", "lights"};
+constexpr std::array<std::string_view, 4> aov_names{"diffuse", "specular", "lights", "environment"};
 
 struct ShadeOptions {
     CommonOptions common;
@@ -44,6 +44,7 @@ ShadeSettings settings_of(const ShadeOptions& options) {
         settings.aovs.diffuse = settings.aovs.diffuse || which == 0;
         settings.aovs.specular = settings.aovs.specular || which == 1;
         settings.aovs.lights = settings.aovs.lights || which == 2;
+        settings.aovs.environment = settings.aovs.environment || which == 3;
     }
     constexpr std::array<std::string_view, 2> types{"half", "float"};
     settings.exr.half = parse_choice("-d", options.data_type, types) == 0;
@@ -133,13 +134,14 @@ class ShadeRun {
   public:
     ShadeRun(const ShadeOptions& options, JsonReport& report, std::vector<FrameJob> jobs)
         : options_(options), report_(report), settings_(settings_of(options)), scene_(choose_scene(options.scene)),
-          dump_(options.dump_kernel, options.common.kernel_dir), jobs_(std::move(jobs)), session_(options.common),
-          progress_(options.common, static_cast<int>(jobs_.size())) {
+          environment_(scene_.scene, options.common.max_memory), dump_(options.dump_kernel, options.common.kernel_dir),
+          jobs_(std::move(jobs)), session_(options.common), progress_(options.common, static_cast<int>(jobs_.size())) {
         settings_.kernel_dump = options.dump_kernel.empty() ? nullptr : &dump_;
     }
 
     ExitCode run() {
         refuse_what_png_cannot();
+        require_environment(scene_.scene, settings_.aovs);
         for (const FrameJob& job : jobs_) {
             shade(job);
             progress_.step();
@@ -162,7 +164,7 @@ class ShadeRun {
 
     void shade(const FrameJob& job) {
         try {
-            const FrameOutcome outcome = shade_frame(job, scene_, settings_, session_, progress_);
+            const FrameOutcome outcome = shade_frame(job, scene_, environment_, settings_, session_, progress_);
             if (!outcome.skipped.empty()) {
                 report_.add(json_of(job), "skipped", outcome.skipped);
             } else if (options_.dry_run) {
@@ -183,12 +185,14 @@ class ShadeRun {
         }
     }
 
-    // One frame's failure does not stop a sequence; a job of one frame fails with that frame's own error.
+    // One frame's failure does not stop a sequence; a job of one frame fails with that frame's own error, and any job
+    // with the error of the environment, which all frames share.
     bool goes_on_after(const FrameJob& job, const Error& error) {
-        const bool skip = options_.skip_bad_frames && error.exit_code() == ExitCode::runtime_failure;
+        const bool shared = environment_.has_failed();
+        const bool skip = options_.skip_bad_frames && !shared && error.exit_code() == ExitCode::runtime_failure;
         report_.add(json_of(job), skip ? "skipped" : "error", error.what());
         progress_.fail(label_of(job) + error.what());
-        if (jobs_.size() == 1 && !skip) {
+        if (shared || (jobs_.size() == 1 && !skip)) {
             return false;
         }
         first_failure_ = failures_ == 0 ? error.exit_code() : first_failure_;
@@ -228,7 +232,8 @@ class ShadeRun {
             for (const auto& [stage, milliseconds] : outcome.stages.stages()) {
                 parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", stage, milliseconds);
             }
-            text += fmt::format(" ({}{}{})", parts, outcome.build.empty() ? "" : "; kernel ", outcome.build);
+            text += fmt::format(" ({}{}{}{}{})", parts, outcome.build.empty() ? "" : "; kernel ", outcome.build,
+                                outcome.environment.empty() ? "" : "; environment ", outcome.environment);
         }
         return text;
     }
@@ -246,6 +251,7 @@ class ShadeRun {
     JsonReport& report_;
     ShadeSettings settings_;
     ChosenScene scene_;
+    RunEnvironment environment_;
     KernelDump dump_;
     std::vector<FrameJob> jobs_;
     Session session_;
@@ -283,10 +289,11 @@ Action declare_shade(CLI::App& app) {
                    "none | rle | zips | zip | piz | pxr24 | b44 | b44a | dwaa | dwab, with a level for zip (1-9) and "
                    "dwa. Default: zip")
         ->type_name("NAME[:LEVEL]");
-    app.add_option("--aov", o->aovs, "also write these planes: diffuse,specular,lights (one per light)")
+    app.add_option("--aov", o->aovs, "also write these planes: diffuse,specular,lights (one per light),environment")
         ->type_name("LIST");
     app.add_option("--keep", o->keep, "input layers passed through to the output, comma-separated")->type_name("LIST");
-    app.add_flag("-u,--update", o->update_only, "skip frames whose output is complete and newer than input and scene");
+    app.add_flag("-u,--update", o->update_only,
+                 "skip frames whose output is complete and newer than input, scene and environment");
     app.add_flag("--no-clobber", o->no_clobber, "skip frames whose output exists");
     app.add_flag("--skip-bad-frames", o->skip_bad_frames,
                  "count frames with a missing or unreadable file as skipped, with a warning; the exit code is 4");

@@ -1,5 +1,6 @@
 // Stand-ins for the verbs that need image files, in builds without them (CLSHADE_IMAGES=OFF).
 #include "host/cli/check_image.h"
+#include "host/cli/environment_file.h"
 #include "host/cli/thumbnails.h"
 #include "host/cli/verb.h"
 
@@ -31,8 +32,17 @@ Action declare_inspect(CLI::App& app) {
 Action declare_demo(CLI::App& app) {
     return refuse(app, "demo");
 }
+Action declare_prefilter(CLI::App& app) {
+    return refuse(app, "prefilter");
+}
 
-CheckInput read_check_input(const std::filesystem::path& /*file*/, const SceneOptions& /*scene*/, int /*threads*/) {
+EnvironmentFile read_environment_file(const std::filesystem::path& path, std::uint64_t /*max_memory*/, bool /*whole*/) {
+    throw UsageError(
+        fmt::format("{}: this build has no image files; configure with -DCLSHADE_IMAGES=ON", path.string()));
+}
+
+CheckInput read_check_input(const std::filesystem::path& /*file*/, const SceneOptions& /*scene*/,
+                            std::uint64_t /*max_memory*/, int /*threads*/) {
     throw UsageError("check INPUT: this build has no image files; configure with -DCLSHADE_IMAGES=ON");
 }
 

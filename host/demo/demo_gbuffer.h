@@ -22,7 +22,10 @@ struct DemoFrame {
 /// are averaged over samples and premultiplied by coverage; position, depth and ids are one sample at the pixel centre.
 [[nodiscard]] DemoFrame render_demo_frame(int width, int height, int index, int count, int threads);
 
-/// The scene file that belongs to the demo (TOML text): lights and materials by id.
+/// The picture that the demo's scene takes its environment from, a lat-long of the built-in studio.
+inline constexpr const char* demo_environment = "studio.exr";
+
+/// The scene file that belongs to the demo (TOML text): environment, lights and materials by id.
 [[nodiscard]] std::string demo_scene_toml();
 
 } // namespace clshade

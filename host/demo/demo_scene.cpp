@@ -7,26 +7,28 @@ std::string demo_scene_toml() {
 # The camera itself is in the headers of the EXR files (worldToCamera, worldToNDC).
 version = 1
 
-[[light]]
-name = "key"                        # over the left shoulder, warm
-type = "distant"
-direction = [0.55, 0.62, -0.75]     # the way the light travels
-irradiance = 2.7
-color = [1.0, 0.95, 0.87]
+[environment]
+image = "studio.exr"                # lat-long: soft boxes in a dark room; any .hdr or .exr will do
+up = "z"
+rotation_degrees = -90.0            # the middle of the picture stands behind the camera
+intensity = 0.8
+
+[output]
+background = true                   # the room itself where there is no object
 
 [[light]]
-name = "fill"                       # from the right, weak and cool
+name = "key"                        # over the left shoulder, warm, where the studio has its large soft box
 type = "distant"
-direction = [-0.85, 0.45, -0.35]
-irradiance = 0.55
-color = [0.62, 0.80, 1.0]
+direction = [0.55, 0.62, -0.75]     # the way the light travels
+irradiance = 1.0
+color = [1.0, 0.95, 0.87]
 
 [[light]]
 name = "pool"                       # a spot on the middle of the stage
 type = "spot"
 position = [1.6, -3.6, 6.5]
 direction = [-0.22, 0.52, -0.90]
-intensity = 80.0                    # irradiance = intensity / distance^2
+intensity = 40.0                    # irradiance = intensity / distance^2
 color = [1.0, 0.90, 0.72]
 cone_angle_degrees = 26.0
 cone_softness = 0.55
@@ -35,14 +37,14 @@ cone_softness = 0.55
 name = "lamp_left"                  # two lamps behind the plinth draw the edges
 type = "point"
 position = [-4.2, 3.2, 2.6]
-intensity = 22.0
+intensity = 14.0
 color = [0.35, 0.62, 1.0]
 
 [[light]]
 name = "lamp_right"
 type = "point"
 position = [4.4, 2.8, 2.2]
-intensity = 18.0
+intensity = 12.0
 color = [1.0, 0.45, 0.25]
 
 # Channels are named by role: albedo, f0, roughness. ggx_roughness turns a roughness map into a shininess.

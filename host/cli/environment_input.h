@@ -1,0 +1,52 @@
+// A scene's environment, from its file to what frames share: read once, pre-filtered once.
+#pragma once
+
+#include "host/cli/progress.h"
+#include "host/environment/filtered_set.h"
+#include "host/environment/lat_long.h"
+#include "host/gbuffer/frame.h"
+#include "host/scene/scene.h"
+#include "host/shading/shader.h"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace clshade::cli {
+
+/// An environment in memory. A picture, or maps that were pre-filtered before (then `image` is null).
+struct EnvironmentInput {
+    std::string name; ///< as the scene writes it; "built-in studio"
+    std::string hash; ///< of the picture's texels
+    std::shared_ptr<const LatLong> image;
+    std::shared_ptr<const FilteredSet> maps; ///< null until the picture has been filtered
+    std::vector<std::string> warnings;       ///< of what was done to the picture while it was read
+
+    /// "1024x512 pixels, mean radiance (0.5, 0.5, 0.5)".
+    [[nodiscard]] std::string description() const;
+    /// Of the picture over the sphere, without the scene's intensity.
+    [[nodiscard]] glm::dvec3 mean() const;
+};
+
+/// Reads what the scene names: a picture, a set of maps, or nothing for the built-in studio. A picture that takes more
+/// than `max_memory` bytes (0: no limit) is halved, and refused where the scene shows it as background. The scene must
+/// have an environment. Throws RuntimeFailure. In builds without image files: throws UsageError unless it is the
+/// studio.
+[[nodiscard]] EnvironmentInput read_environment(const Scene& scene, std::uint64_t max_memory);
+
+/// Fills `maps` from the picture where there are none: filters on the shader's device or takes what an earlier run has
+/// kept. Tells `progress` of it from `from` to `to` of the current step.
+[[nodiscard]] PrefilterReport prefilter_environment(EnvironmentInput& input, Shader& shader, Progress& progress,
+                                                    double from, double to);
+
+/// Files whose time and content decide what the environment is: the picture, or those of a set. Empty for the studio.
+[[nodiscard]] std::vector<std::filesystem::path> environment_files(const Scene& scene);
+
+/// Throws UsageError with what to do about it if the AOV of the environment is asked for and the scene has none.
+void require_environment(const Scene& scene, const AovSelection& aovs);
+
+} // namespace clshade::cli
