@@ -4,8 +4,8 @@
 // LEVELS (models.md section 6; n falls by two a level, since with its factor of four values between levels err by
 // 12-14 %). Level i = 0..13 holds the radiance filtered with the lobe
 //   p_n(c) = (n+2)/(8 pi) ((1+c)/2)^(n/2),  n = 8192 / 2^i,  c = R.w,
-// for directions R on a grid of (cells+1)^2 vertices, cells = 384 >> (i/2): 1.6 to 3.4 grid steps in the lobe's
-// deviation 2/sqrt(n), at every level.
+// for directions R on a grid of (cells+1)^2 vertices, cells = max(384 >> (i/2), 12): 1.6 or more grid steps in
+// the lobe's deviation 2/sqrt(n), and enough to keep the energy of a sun within 0.5 % at the widest levels.
 //
 // GRID. Vertex (i, j) of a level with `cells` cells a side, i, j = 0..cells, stands at index j (cells+1) + i and is the
 // octahedral direction of x = 2 i/cells - 1, y = 2 j/cells - 1: z = 1 - |x| - |y|; where z < 0, (x, y) becomes
@@ -28,7 +28,7 @@
 // (i, j): N.E = max(i/128, 1e-4), i = 0..128; n = 2^(13 j/64) - 1, j = 0..64; index j 129 + i.
 #pragma once
 
-#include <array>
+#include <algorithm>
 
 namespace clshade {
 
@@ -47,7 +47,7 @@ inline constexpr double ambient_octaves = 13.0;
 }
 
 [[nodiscard]] constexpr int level_cells(int level) {
-    return 384 >> (level / 2);
+    return std::max(384 >> (level / 2), 12);
 }
 
 } // namespace clshade

@@ -62,13 +62,13 @@ glm::dvec3 room(const glm::dvec3& d) {
 const std::array<SoftBox, 4>& soft_boxes() {
     static const std::array<SoftBox, 4> boxes{{
         // Key: large, warm, over the camera's left shoulder.
-        {{-0.62, 0.62, 0.66}, 0.40, 0.34, 0.07, 0.45, {20.0, 17.6, 14.6}},
+        {{-0.62, 0.62, 0.66}, 0.29, 0.25, 0.06, 0.45, {20.0, 17.6, 14.6}},
         // Fill: broad, cool, from the right and a little behind the object, so that it edges it.
         {{0.96, 0.16, 0.16}, 0.30, 0.62, 0.10, 0.30, {1.9, 2.3, 2.9}},
         // Strip behind the object, upright, on the left: the rim light.
         {{-0.72, 0.26, -0.66}, 0.055, 0.75, 0.035, 0.25, {8.6, 8.8, 9.2}},
         // Panel overhead, long from left to right.
-        {{0.10, 0.96, -0.34}, 0.62, 0.16, 0.08, 0.30, {3.6, 3.6, 3.6}},
+        {{0.10, 0.96, -0.34}, 0.62, 0.16, 0.08, 0.30, {3.0, 3.0, 3.0}},
     }};
     return boxes;
 }
