@@ -30,7 +30,7 @@ BuildTimes measure_build(Device& device, const BenchScene& scene, const std::fil
     const TemporaryFolder folder(mark);
     Frame frame = make_bench_frame(64, 64, 1);
     apply_scene(frame, scene, environment);
-    const SourceSet sources = marked_sources(kernel_dir, {"shade.cl", "ambient_brdf.cl"}, mark);
+    const SourceSet sources = marked_sources(kernel_dir, {"shade.cl"}, mark);
     BuildTimes times;
     times.cold_ms = first_launch_ms(device, frame, sources, folder.path(), lanes);
     times.cached_ms = first_launch_ms(device, frame, sources, folder.path(), lanes);

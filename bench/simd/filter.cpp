@@ -8,6 +8,7 @@ namespace clshade::rivals {
 
 namespace {
 
+constexpr int vector_texels = 16; // the longest there is
 constexpr double pi = 3.14159265358979323846;
 
 struct Direction {
@@ -83,7 +84,9 @@ void filter_vertex(const SkySource& source, const SkyLobe& lobe, const Direction
             const double reach = 2.0 * __builtin_asin(__builtin_sqrt(left > 0.0 ? left / along : 0.0));
             const double columns = reach / (2.0 * pi) * source.width;
             const int from = static_cast<int>(__builtin_floor(middle - columns));
-            const int to = static_cast<int>(__builtin_ceil(middle + columns)) + 1;
+            // Whole vectors: the texels beyond weigh next to nothing, a loop's rest one by one costs more.
+            const int count = static_cast<int>(__builtin_ceil(middle + columns)) + 1 - from;
+            const int to = from + (count + vector_texels - 1) / vector_texels * vector_texels;
             if (to - from < source.width) {
                 first = from;
                 last = to;

@@ -109,16 +109,19 @@ std::string deck_text(const BenchReport& bench) {
                  {"here"},
                  {"here [ms]"},
                  {"size", Align::left}});
+    std::size_t skipped = 0;
     for (const DeckRow& row : bench.deck) {
-        const std::string deck = fmt::format("{:.3f}", row.deck_ratio);
         if (row.status == BenchStatus::ok && row.ratio) {
-            table.add_row({row.name, row.baseline, deck, fmt::format("{:.3f}", *row.ratio), format_ms(row.median_ms),
+            table.add_row({row.name, row.baseline, fmt::format("{:.3f}", row.deck_ratio),
+                           fmt::format("{:.3f}", *row.ratio), format_ms(row.median_ms),
                            size_text(row.width, row.height)});
         } else {
-            table.add_row({row.name, row.baseline, deck, std::string(name_of(row.status))});
+            ++skipped;
         }
     }
-    return table_text(table);
+    const bool tell = !table.empty() && skipped > 0;
+    return table_text(table) +
+           (tell ? fmt::format("{} more rows of the deck: their kernels were not timed\n", skipped) : std::string());
 }
 
 std::string layers_text(const BenchReport& bench) {
@@ -144,9 +147,6 @@ std::string reasons_text(const BenchReport& bench) {
         for (const RivalResult& rival : row.against) {
             add(row.key + " against " + rival.name, rival.status, rival.reason);
         }
-    }
-    for (const DeckRow& row : bench.deck) {
-        add(row.name, row.status, row.reason);
     }
     return text.empty() ? text : fmt::format("\n{}", text);
 }

@@ -1,8 +1,11 @@
 // Every rival computes what it claims to: against the double-precision reference, for each instruction set there is.
+#include "bench/bench_environment.h"
 #include "bench/bench_frame.h"
 #include "bench/contest.h"
 #include "bench/device_rivals.h"
 #include "bench/host_rivals.h"
+#include "bench/prefilter_bench.h"
+#include "bench/prefilter_rival.h"
 #include "host/device/device.h"
 #include "host/reference/reference.h"
 #include "host/shading/kernel_library.h"
@@ -10,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -118,6 +122,40 @@ TEST_P(HostRivalsTest, StreamReadsEveryPlane) {
             }
         }
     }
+}
+
+TEST_P(HostRivalsTest, TheFilterAgreesWithTheReference) {
+    // 64 rows are doubled, 256 are halved for broad lobes; suns of 2e5 tell when a texel is lost.
+    for (const int rows : {64, 256}) {
+        const LatLong sky = sunny_sky(rows, 3);
+        PrefilterRival rival(2, GetParam());
+        const FilteredSet set = rival.filter(sky);
+        EXPECT_NO_THROW(check_sizes(set));
+        // w - R rounds to 6e-8 of 1, which is 3e-6 of the sharpest lobe's deviation, and counts several times where
+        // the lobe has fallen off towards a sun.
+        EXPECT_LT(prefilter_error(set, sky), 3e-5) << rows;
+    }
+}
+
+TEST(PrefilterError, SeesAMapThatIsOff) {
+    const LatLong sky = sunny_sky(32, 3);
+    FilteredSet set = PrefilterRival(2).filter(sky);
+    const double before = prefilter_error(set, sky);
+    for (float& value : set.irradiance) {
+        value *= 1.01F;
+    }
+    EXPECT_LT(before, 1e-3);
+    EXPECT_NEAR(prefilter_error(set, sky), 0.01, 1e-4);
+}
+
+TEST(SunnySky, HasSunsBeyondHalfRangeAndDependsOnTheSeedAlone) {
+    const LatLong sky = sunny_sky(64, 3);
+    EXPECT_EQ(sky.width, 128);
+    ASSERT_EQ(sky.rgb.size(), 64U * 128U * 3U);
+    EXPECT_GT(*std::max_element(sky.rgb.begin(), sky.rgb.end()), 65504.0F);
+    EXPECT_GT(*std::min_element(sky.rgb.begin(), sky.rgb.end()), 0.0F);
+    EXPECT_EQ(sky.rgb, sunny_sky(64, 3).rgb);
+    EXPECT_NE(sky.rgb, sunny_sky(64, 4).rgb);
 }
 
 INSTANTIATE_TEST_SUITE_P(InstructionSets, HostRivalsTest, ::testing::ValuesIn(instruction_sets()), [](const auto& set) {

@@ -2,6 +2,8 @@
 #include "bench/bench_frame.h"
 #include "bench/bench_rows.h"
 #include "bench/benchmark.h"
+#include "bench/deck_table.h"
+#include "bench/prefilter_rows.h"
 #include "host/base/error.h"
 
 #include <gmock/gmock.h>
@@ -59,11 +61,18 @@ TEST(BenchRows, KeysAreStable) {
         "shade.mixed4.scattered.distant1",
     };
     std::vector<std::string> expected;
-    for (const char* size : {".3840x2160", ".1280x720"}) {
-        for (const std::string& name : at_both_sizes) {
+    const auto add = [&expected](const std::vector<std::string>& names, const std::string& size) {
+        for (const std::string& name : names) {
             expected.push_back(name + size);
         }
-    }
+    };
+    add(at_both_sizes, ".3840x2160");
+    add({"shade.blinn_phong.lambert.constant_f0.environment",
+         "shade.layers2.blinn_phong.lambert.constant.approximated.environment",
+         "shade.blinn_phong.lambert.constant_f0.distant1_environment",
+         "shade.layers2.blinn_phong.oren_nayar.constant.approximated.distant1_environment"},
+        ".3840x2160");
+    add(at_both_sizes, ".1280x720");
     for (const char* name :
          {"shade.blinn_phong.lambert.distant8", "shade.blinn_phong.lambert.point1", "shade.blinn_phong.lambert.spot1",
           "shade.blinn_phong.oren_nayar_full.distant1", "shade.blinn_phong.oren_nayar_qualitative.distant1",
@@ -72,12 +81,20 @@ TEST(BenchRows, KeysAreStable) {
           "shade.blinn_phong_spectral.none.distant1", "shade.layers2.blinn_phong.lambert.exact.original.distant1"}) {
         expected.push_back(std::string(name) + ".1280x720");
     }
+    for (const std::string lights : {"environment", "distant1_environment"}) {
+        for (const std::string stack : {"blinn_phong.lambert.constant_f0", "blinn_phong.oren_nayar.constant_f0",
+                                        "layers2.blinn_phong.lambert.constant.approximated",
+                                        "layers2.blinn_phong.oren_nayar.constant.approximated"}) {
+            add({"shade." + stack + "." + lights}, ".1280x720");
+        }
+    }
+    add({"prefilter.1024x512", "prefilter.4096x2048", "prefilter.1024x512.cached"}, "");
     EXPECT_THAT(benchmark_keys({}), ElementsAreArray(expected));
 }
 
 TEST(BenchRows, TheFilterSearchesTheKey) {
     BenchOptions options;
-    options.filter = "oren_nayar\\.";
+    options.filter = "oren_nayar\\..*distant1\\.";
     EXPECT_THAT(benchmark_keys(options),
                 ElementsAre("shade.blinn_phong.oren_nayar.distant1.3840x2160",
                             "shade.layers2.blinn_phong.oren_nayar.constant.approximated.distant1.3840x2160",
@@ -86,6 +103,8 @@ TEST(BenchRows, TheFilterSearchesTheKey) {
     options.filter = "layers8.*3840";
     EXPECT_THAT(benchmark_keys(options),
                 ElementsAre("shade.layers8.blinn_phong.lambert.constant.approximated.distant1.3840x2160"));
+    options.filter = "1024";
+    EXPECT_THAT(benchmark_keys(options), ElementsAre("prefilter.1024x512", "prefilter.1024x512.cached"));
     options.filter = "^lambert";
     EXPECT_THAT(benchmark_keys(options), ElementsAre());
     options.filter = "(";
@@ -99,7 +118,10 @@ TEST(BenchRows, OneSizeForAllLeavesEachKeyOnce) {
     options.height = 32;
     const std::vector<std::string> keys = benchmark_keys(options);
     EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), keys.size());
-    EXPECT_TRUE(std::all_of(keys.begin(), keys.end(), [](const std::string& key) { return key.ends_with(".64x32"); }));
+    // An environment's size is no picture's.
+    EXPECT_TRUE(std::all_of(keys.begin(), keys.end(), [](const std::string& key) {
+        return key.ends_with(".64x32") != key.starts_with("prefilter.");
+    }));
     options.height = 0;
     EXPECT_THROW((void)benchmark_keys(options), UsageError);
 }
@@ -112,24 +134,107 @@ TEST(BenchRows, TheLambertRowMeetsEveryRival) {
 
 TEST(BenchRows, DeckRatiosAreThoseOfTheDeck) {
     // Times of models.md section 13; ratios are given to three decimals.
+    const std::vector<double> expected = {1.0,         0.34 / 0.33, 0.37 / 0.33, 0.53 / 0.33, 1.0,
+                                          4.28 / 3.00, 1.0,         1.25 / 0.97, 1.0,         1.62 / 1.35,
+                                          1.0,         7.17 / 6.87, 7.55 / 6.87, 7.82 / 6.87};
     const std::vector<DeckEntry> deck = deck_entries();
-    ASSERT_EQ(deck.size(), 6U);
-    EXPECT_DOUBLE_EQ(deck[0].ratio, 1.0);
-    EXPECT_NEAR(deck[1].ratio, 0.34 / 0.33, 5e-4);
-    EXPECT_NEAR(deck[2].ratio, 0.37 / 0.33, 5e-4);
-    EXPECT_NEAR(deck[3].ratio, 0.53 / 0.33, 5e-4);
-    EXPECT_DOUBLE_EQ(deck[4].ratio, 1.0);
-    EXPECT_NEAR(deck[5].ratio, 1.25 / 0.97, 5e-4);
+    ASSERT_EQ(deck.size(), expected.size());
+    for (std::size_t i = 0; i < deck.size(); ++i) {
+        EXPECT_NEAR(deck[i].ratio, expected[i], 5e-4) << deck[i].name;
+        EXPECT_EQ(deck[i].row == deck[i].baseline_row, deck[i].name == deck[i].baseline) << deck[i].name;
+    }
 }
 
-TEST(BenchRows, EveryRowOfTheDeckIsTimedAtBothSizes) {
+TEST(BenchRows, EveryRowOfTheDeckIsTimedAtItsSize) {
     const std::vector<std::string> keys = benchmark_keys({});
     for (const DeckEntry& entry : deck_entries()) {
-        for (const char* size : {".3840x2160", ".1280x720"}) {
-            EXPECT_THAT(keys, Contains(entry.row + size)) << entry.name;
-            EXPECT_THAT(keys, Contains(entry.baseline_row + size)) << entry.name;
-        }
+        EXPECT_THAT(keys, Contains(entry.row + ".1280x720")) << entry.name;
+        EXPECT_THAT(keys, Contains(entry.baseline_row + ".1280x720")) << entry.name;
     }
+    EXPECT_THAT(keys, Contains(heaviest_row() + ".1280x720"));
+    EXPECT_THAT(keys, Contains(heaviest_row() + ".3840x2160"));
+}
+
+TEST(BenchRows, RowsInTheStudioDifferInWhatTheirNamesSay) {
+    const BenchRow single = find_row("shade.blinn_phong.lambert.constant_f0.environment");
+    const BenchRow heaviest = find_row(heaviest_row());
+    EXPECT_TRUE(single.scene.environment && heaviest.scene.environment);
+    EXPECT_EQ(single.scene.lights, BenchLights::none);
+    EXPECT_EQ(heaviest.scene.lights, BenchLights::distant1);
+    const BoundMaterial& plain = single.scene.materials.at(0);
+    const BoundMaterial& layered = heaviest.scene.materials.at(0);
+    EXPECT_EQ(plain.layers.size(), 1U);
+    ASSERT_EQ(layered.layers.size(), 2U);
+    EXPECT_EQ(layered.layers[0].shininess.constant.r, 512.0);
+    EXPECT_EQ(layered.absorption, AbsorptionModel::approximated);
+    EXPECT_EQ(layered.base().f0.constant, plain.base().f0.constant);
+    EXPECT_EQ(layered.base().shininess.planes, plain.base().shininess.planes);
+    EXPECT_EQ(layered.albedo.planes, plain.albedo.planes);
+    EXPECT_EQ(plain.diffuse, DiffuseModel::lambert);
+    EXPECT_EQ(layered.diffuse, DiffuseModel::oren_nayar);
+    // The limit "one environment to one light" is taken from this pair.
+    ASSERT_EQ(single.baselines.size(), 1U);
+    EXPECT_EQ(row_name(single.baselines[0].scenes.at(0)), "shade.blinn_phong.lambert.constant_f0.distant1");
+}
+
+/// A result that took that long, and so many times as long as another row.
+BenchResult timed(const std::string& key, double milliseconds, const std::string& other = "", double ratio = 0.0) {
+    BenchResult result;
+    result.key = key;
+    result.median_ms = milliseconds;
+    if (!other.empty()) {
+        RivalResult rival;
+        rival.name = other;
+        rival.ratio = ratio;
+        result.against.push_back(rival);
+    }
+    return result;
+}
+
+TEST(SpeedLimits, AreJudgedOnWhatWasTimedAtTheDecksSize) {
+    EXPECT_TRUE(judged_limits({}).empty());
+    const std::string single = "shade.blinn_phong.lambert.constant_f0.environment.1280x720";
+    const std::string light = "shade.blinn_phong.lambert.constant_f0.distant1.1280x720";
+    const std::string dual = "shade.layers2.blinn_phong.lambert.constant.approximated.environment.1280x720";
+    std::vector<BenchResult> results = {timed(single, 3.0, light, 2.4), timed(dual, 4.0, single, 1.31),
+                                        timed(heaviest_row() + ".3840x2160", 30.0),
+                                        timed("prefilter.1024x512.cached", 49.0)};
+    const std::vector<SpeedLimit> limits = judged_limits(results);
+    ASSERT_EQ(limits.size(), 3U);
+    EXPECT_EQ(limits[0].limit, 2.5);
+    EXPECT_EQ(limits[0].value, 2.4);
+    EXPECT_TRUE(limits[0].met());
+    EXPECT_EQ(limits[1].limit, 1.30);
+    EXPECT_EQ(limits[1].value, 1.31);
+    EXPECT_FALSE(limits[1].met());
+    EXPECT_TRUE(limits[2].in_milliseconds);
+    EXPECT_EQ(limits[2].limit, 50.0);
+    EXPECT_EQ(limits[2].value, 49.0);
+    results[0].status = BenchStatus::error;
+    EXPECT_EQ(judged_limits(results).size(), 2U);
+}
+
+TEST(SpeedLimits, TheHeadlineIsTheDecksHeaviestRowAtItsSize) {
+    EXPECT_FALSE(headline_of({timed(heaviest_row() + ".3840x2160", 30.0)}).has_value());
+    const std::vector<BenchResult> results = {timed(heaviest_row() + ".1280x720", 5.0)};
+    const auto headline = headline_of(results);
+    ASSERT_TRUE(headline.has_value());
+    EXPECT_EQ(headline->deck_ms, 7.82);
+    EXPECT_EQ(headline->median_ms, 5.0);
+    const std::vector<SpeedLimit> limits = judged_limits(results);
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_EQ(limits[0].limit, 7.82);
+    EXPECT_TRUE(limits[0].met());
+}
+
+TEST(SpeedLimits, TheFirstPrefilterCountsWithItsBuild) {
+    BenchResult row = timed("prefilter.1024x512", 400.0);
+    row.build_cold_ms = 2100.0;
+    const std::vector<SpeedLimit> limits = judged_limits({row});
+    ASSERT_EQ(limits.size(), 1U);
+    EXPECT_EQ(limits[0].limit, 2000.0);
+    EXPECT_EQ(limits[0].value, 2100.0);
+    EXPECT_FALSE(limits[0].met());
 }
 
 TEST(BenchRows, LayersAreCountedFromOneToEight) {
@@ -224,6 +329,22 @@ TEST(BenchFrame, PositionsLieOnTheirPixelsRays) {
         const glm::dvec3 on_ray = view.eye + direction * glm::dot(seen - view.eye, view.view_axis);
         EXPECT_NEAR(glm::distance(seen, on_ray), 0.0, 1e-5) << x << ", " << y;
     }
+}
+
+TEST(BenchFrame, AnEnvironmentComesAndGoesWithTheScene) {
+    Frame frame = make_bench_frame(32, 16, 1);
+    const BenchScene scene = find_row(heaviest_row()).scene;
+    EXPECT_THROW(apply_scene(frame, scene), std::invalid_argument);
+    BoundEnvironment studio;
+    studio.intensity = {2.0, 2.0, 2.0};
+    apply_scene(frame, scene, studio);
+    ASSERT_TRUE(frame.environment.has_value());
+    EXPECT_EQ(frame.environment->intensity, studio.intensity);
+    EXPECT_EQ(frame.lights.size(), 1U);
+    apply_scene(frame, {}, studio);
+    EXPECT_FALSE(frame.environment.has_value());
+    apply_scene(frame, {.lights = BenchLights::none});
+    EXPECT_TRUE(frame.lights.empty());
 }
 
 TEST(BenchFrame, ScenesChangeLightsAndMaterialsOnly) {
