@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -29,7 +30,7 @@ struct Slot {
     std::array<char, PATH_MAX> path{};
 };
 static_assert(std::atomic<SlotState>::is_always_lock_free);
-constexpr int slot_count = 64; // files written at the same time; one per frame worker
+constexpr int slot_count = 64; // one per frame worker, and those of a folder
 std::array<Slot, slot_count> slots;
 std::atomic<unsigned> next_number{0};
 
@@ -56,6 +57,27 @@ void forget_temporary(int slot) {
     }
 }
 
+[[noreturn]] void fail_writing(const std::filesystem::path& target, int error) {
+    const char* advice = "check the folder";
+    if (error == ENOSPC || error == EDQUOT || error == EFBIG) {
+        advice = "free some space";
+    } else if (error == EACCES || error == EPERM || error == EROFS) {
+        advice = "check the permissions";
+    }
+    throw RuntimeFailure(fmt::format("{}: cannot be written: {}; {}", target.string(), std::strerror(error), advice));
+}
+
+[[noreturn]] void fail_crowded(const std::filesystem::path& target) {
+    throw RuntimeFailure(fmt::format(
+        "{}: cannot be written: too many files at once or too long a path; use fewer workers", target.string()));
+}
+
+/// A name that nobody else uses beside `file`. Long names are cut: a file's name has at most 255 bytes.
+std::filesystem::path name_beside(const std::filesystem::path& file) {
+    return file.parent_path() /
+           fmt::format(".{}.{}-{}.tmp", file.filename().string().substr(0, 200), ::getpid(), next_number++);
+}
+
 /// Where the bytes shall lie in the end: renaming onto a link would replace the link, not the file.
 std::filesystem::path followed(const std::filesystem::path& file) {
     std::error_code error;
@@ -76,20 +98,20 @@ void remove_temporaries() noexcept {
             ::unlink(slot.path.data());
         }
     }
+    for (const Slot& slot : slots) { // folders, empty by now
+        if (slot.state.load() == SlotState::active) {
+            ::rmdir(slot.path.data());
+        }
+    }
 }
 
 TemporaryFile::TemporaryFile(const std::filesystem::path& target) : target_(target), final_(followed(target)) {
-    // Long names are cut: a file's name has at most 255 bytes.
-    const std::string name = final_.filename().string().substr(0, 200);
-    const std::filesystem::path folder = final_.parent_path();
     buffer_.reserve(buffer_size);
     for (int attempt = 0; attempt < 100; ++attempt) {
-        path_ = folder / fmt::format(".{}.{}-{}.tmp", name, ::getpid(), next_number++);
+        path_ = name_beside(final_);
         slot_ = register_temporary(path_.string());
         if (slot_ < 0) {
-            throw RuntimeFailure(
-                fmt::format("{}: cannot be written: too many files at once or too long a path; use fewer workers",
-                            target_.string()));
+            fail_crowded(target_);
         }
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0) {
@@ -116,13 +138,7 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::fail(int error) const {
-    const char* advice = "check the folder";
-    if (error == ENOSPC || error == EDQUOT || error == EFBIG) {
-        advice = "free some space";
-    } else if (error == EACCES || error == EPERM || error == EROFS) {
-        advice = "check the permissions";
-    }
-    throw RuntimeFailure(fmt::format("{}: cannot be written: {}; {}", target_.string(), std::strerror(error), advice));
+    fail_writing(target_, error);
 }
 
 void TemporaryFile::write_out(std::span<const std::byte> bytes) {
@@ -183,6 +199,74 @@ void TemporaryFile::commit() {
     }
     forget_temporary(slot_);
     slot_ = -1;
+}
+
+TemporaryFolder::TemporaryFolder(const std::filesystem::path& target, std::span<const std::string> names)
+    : target_(target), final_(followed(target)) {
+    int error = EEXIST;
+    for (int attempt = 0; attempt < 100 && error == EEXIST; ++attempt) {
+        path_ = name_beside(final_);
+        slots_.assign(1, register_temporary(path_.string()));
+        if (slots_[0] < 0) {
+            fail_crowded(target_);
+        }
+        error = ::mkdir(path_.c_str(), 0777) == 0 ? 0 : errno;
+        if (error != 0) {
+            forget_temporary(slots_[0]);
+        }
+    }
+    if (error != 0) {
+        fail(error);
+    }
+    for (const std::string& name : names) {
+        files_.push_back((path_ / name).string());
+        slots_.push_back(register_temporary(files_.back()));
+        if (slots_.back() < 0) {
+            remove();
+            fail_crowded(target_);
+        }
+    }
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    remove();
+}
+
+void TemporaryFolder::remove() noexcept {
+    if (slots_.empty()) {
+        return;
+    }
+    for (const std::string& file : files_) {
+        ::unlink(file.c_str());
+    }
+    ::rmdir(path_.c_str());
+    for (const int slot : slots_) {
+        forget_temporary(slot);
+    }
+    slots_.clear();
+}
+
+void TemporaryFolder::fail(int error) const {
+    fail_writing(target_, error);
+}
+
+void TemporaryFolder::commit() {
+    // Replaces nothing, or an empty folder.
+    if (::rename(path_.c_str(), final_.c_str()) == 0) {
+        for (const int slot : slots_) {
+            forget_temporary(slot);
+        }
+        slots_.clear();
+        return;
+    }
+    // The set that stands there and the new one change places, and what then is the temporary is removed.
+    if (errno != ENOTEMPTY && errno != EEXIST) {
+        fail(errno);
+    }
+    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, final_.c_str(), RENAME_EXCHANGE) != 0) {
+        fail(errno);
+    }
+    remove();
 }
 
 } // namespace clshade

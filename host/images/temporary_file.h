@@ -1,4 +1,4 @@
-// A file that appears under its real name only when it is whole.
+// Files and folders that appear under their real names only when they are whole.
 #pragma once
 
 #include <cstddef>
@@ -47,6 +47,34 @@ class TemporaryFile {
     int error_ = 0; ///< errno of the first failed write
     std::uint64_t flushed_ = 0;
     std::vector<std::byte> buffer_;
+};
+
+/// A folder ".<name>.<pid>-<n>.tmp" beside the target, for a set of files of the given names. Removed with them by the
+/// destructor, or by remove_temporaries() on a signal, unless committed. Failures as above.
+class TemporaryFolder {
+  public:
+    TemporaryFolder(const std::filesystem::path& target, std::span<const std::string> names);
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    TemporaryFolder(TemporaryFolder&&) = delete;
+    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+    /// Puts the folder in the target's place, in one step. A folder that stands there must hold no file but some of the
+    /// given names: it is removed.
+    void commit();
+
+  private:
+    void remove() noexcept;
+    [[noreturn]] void fail(int error) const;
+
+    std::filesystem::path target_; ///< as named by the user, for messages
+    std::filesystem::path final_;  ///< symbolic links followed
+    std::filesystem::path path_;
+    std::vector<std::string> files_; ///< full names in path_
+    std::vector<int> slots_;         ///< of the folder and of its files
 };
 
 } // namespace clshade
