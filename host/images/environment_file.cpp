@@ -93,14 +93,17 @@ void check_exr(const std::string& file) {
 }
 
 /// The way to a lat-long picture from six square faces one below the other.
-std::string conversion(const std::string& file, int face, bool declared) {
+std::string conversion(const std::string& file, std::int64_t face, bool declared) {
     return fmt::format("convert it with `exrenvmap {}-l -w {} {} LATLONG.exr`", declared ? "" : "-ci ", 4 * face, file);
 }
 
 void check_shape(const std::string& file, const OIIO::ImageSpec& spec) {
-    const int width = spec.width;
-    const int height = spec.height;
+    const std::int64_t width = spec.width;
+    const std::int64_t height = spec.height;
     const std::string size = fmt::format("{}x{}", width, height);
+    if (width < 1 || height < 1) {
+        fail(file, fmt::format("claims {} pixels; {}", size, again));
+    }
     // OpenImageIO's name for the attribute `envmap`; some writers store it as a plain number.
     if (spec.get_string_attribute("textureformat") == "CubeFace Environment" ||
         spec.get_int_attribute("envmap", 0) == 1) {
@@ -114,7 +117,7 @@ void check_shape(const std::string& file, const OIIO::ImageSpec& spec) {
                                conversion(file, width, false)));
     }
     if (width == 6 * height || 4 * width == 3 * height || 3 * width == 4 * height) {
-        const int face = std::gcd(width, height);
+        const std::int64_t face = std::gcd(width, height);
         fail(file, fmt::format("looks like a cube map ({}), not like a lat-long picture; cut its faces out of it (such "
                                "as `oiiotool {} --cut {}x{}+0+0 -o face+X.exr`; +X -X +Y -Y +Z -Z) and convert them "
                                "with `exrenvmap -l -w {} face%.exr LATLONG.exr`",
@@ -191,16 +194,15 @@ int halvings_of(const std::string& file, const OIIO::ImageSpec& spec, std::uint6
     const std::uint64_t mebibytes = (bytes(spec.height) + (1U << 20U) - 1) >> 20U;
     int halvings = 0;
     int height = spec.height;
-    while (most > 0 && bytes(height) > most && height / 2 >= smallest_halved_height) {
-        if (whole) {
-            fail(file, fmt::format("{}x{} texels take {} MiB; raise --max-mem to {} or more, or do without the "
-                                   "background",
-                                   spec.width, spec.height, mebibytes, mebibytes));
-        }
-        if (height % 2 != 0) {
-            fail(file, fmt::format("{}x{} texels take {} MiB and cannot be halved to fit (an odd number of rows); "
-                                   "raise --max-mem to {} or more, or scale it down first",
-                                   spec.width, spec.height, mebibytes, mebibytes));
+    while (most > 0 && bytes(height) > most) {
+        const char* obstacle = whole                                 ? ""
+                               : height % 2 != 0                     ? " and cannot be halved (an odd number of rows)"
+                               : height / 2 < smallest_halved_height ? " and are not halved below 1024 rows"
+                                                                     : nullptr;
+        if (obstacle != nullptr) {
+            fail(file, fmt::format("{}x{} texels take {} MiB{}; raise --max-mem to {} or more, or scale the picture "
+                                   "down first",
+                                   spec.width, spec.height, mebibytes, obstacle, mebibytes));
         }
         height /= 2;
         ++halvings;
