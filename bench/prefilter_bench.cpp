@@ -341,6 +341,7 @@ std::vector<BenchResult> run_prefilter_rows(Device& device, const BenchOptions& 
         }
     }
     std::vector<BenchResult> all;
+    all.reserve(results.size());
     for (std::optional<BenchResult>& result : results) {
         all.push_back(std::move(*result));
     }

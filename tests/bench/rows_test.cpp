@@ -6,6 +6,7 @@
 #include "bench/prefilter_rows.h"
 #include "host/base/error.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,11 +82,11 @@ TEST(BenchRows, KeysAreStable) {
           "shade.blinn_phong_spectral.none.distant1", "shade.layers2.blinn_phong.lambert.exact.original.distant1"}) {
         expected.push_back(std::string(name) + ".1280x720");
     }
-    for (const std::string lights : {"environment", "distant1_environment"}) {
-        for (const std::string stack : {"blinn_phong.lambert.constant_f0", "blinn_phong.oren_nayar.constant_f0",
-                                        "layers2.blinn_phong.lambert.constant.approximated",
-                                        "layers2.blinn_phong.oren_nayar.constant.approximated"}) {
-            add({"shade." + stack + "." + lights}, ".1280x720");
+    for (const char* lights : {"environment", "distant1_environment"}) {
+        for (const char* stack : {"blinn_phong.lambert.constant_f0", "blinn_phong.oren_nayar.constant_f0",
+                                  "layers2.blinn_phong.lambert.constant.approximated",
+                                  "layers2.blinn_phong.oren_nayar.constant.approximated"}) {
+            add({fmt::format("shade.{}.{}", stack, lights)}, ".1280x720");
         }
     }
     add({"prefilter.1024x512", "prefilter.4096x2048", "prefilter.1024x512.cached"}, "");
