@@ -43,14 +43,15 @@ TEST(EnvironmentMapRecords, AColourRecordHoldsTheFourCornersOfItsCell) {
             }
         }
     }
-    std::vector<float> records(16 * cells_across * cells_down);
+    std::vector<float> records(std::size_t{16} * cells_across * cells_down);
     fill_colour_records(records, vertices, cells_across, cells_down, {1.0, 2.0, 0.5});
     constexpr std::array<float, 3> factor = {1.0F, 2.0F, 0.5F};
     for (int y = 0; y < cells_down; ++y) {
         for (int x = 0; x < cells_across; ++x) {
             for (int k = 0; k < 12; ++k) { // r00 r10 r01 r11, g00 ...
                 const int c = k / 4;
-                const auto vertex = static_cast<float>(100 * (y + k % 4 / 2) + 10 * (x + k % 2) + c);
+                const int down = k % 4 / 2;
+                const auto vertex = static_cast<float>(100 * (y + down) + 10 * (x + k % 2) + c);
                 EXPECT_EQ(records[static_cast<std::size_t>(16 * (y * cells_across + x) + k)],
                           vertex * factor[static_cast<std::size_t>(c)]);
             }
@@ -72,7 +73,10 @@ double level_at_place(const std::vector<float>& level, int cells, double x, doub
     const double fx = x * cells - i;
     const double fy = y * cells - j;
     const auto at = [&](int a, int b) {
-        return static_cast<double>(level[static_cast<std::size_t>((b * (cells + 1) + a) * 3 + channel)]);
+        return static_cast<double>(
+            level[(static_cast<std::size_t>(b) * static_cast<std::size_t>(cells + 1) + static_cast<std::size_t>(a)) *
+                      3 +
+                  static_cast<std::size_t>(channel)]);
     };
     return (1.0 - fy) * ((1.0 - fx) * at(i, j) + fx * at(i + 1, j)) +
            fy * ((1.0 - fx) * at(i, j + 1) + fx * at(i + 1, j + 1));
@@ -86,7 +90,9 @@ TEST(EnvironmentMapRecords, AMapForOneExponentIsWhatLiesBetweenTwoLevels) {
         const int sharper = std::min(static_cast<int>(mip), 12);
         const auto index = static_cast<std::size_t>(sharper);
         const int cells = level_cells(sharper);
-        ASSERT_EQ(blend.size(), static_cast<std::size_t>((cells + 1) * (cells + 1) * 3)) << n;
+        ASSERT_EQ(blend.size(),
+                  std::size_t{3} * static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 1))
+            << n;
         for (int k = 0; k < 500; ++k) { // places that no grid has
             const double x = std::fmod(0.37 + 0.618034 * k, 1.0);
             const double y = std::fmod(0.11 + 0.754878 * k, 1.0);

@@ -103,7 +103,8 @@ double bilinear(const std::vector<float>& table, double x, double n, int value) 
     const int i = std::min(static_cast<int>(column), 127);
     const int j = std::min(static_cast<int>(row), 63);
     const auto at = [&](int a, int b) {
-        return static_cast<double>(table[static_cast<std::size_t>((b * 129 + a) * 2 + value)]);
+        return static_cast<double>(table[(static_cast<std::size_t>(b) * 129 + static_cast<std::size_t>(a)) * 2 +
+                                         static_cast<std::size_t>(value)]);
     };
     const double fx = column - i;
     const double fy = row - j;
