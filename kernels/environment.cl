@@ -11,7 +11,7 @@
 #include "radiance.cl"
 
 // Where maps begin, in records: colour records of levels 0 to 13, then the irradiance map, then what materials need.
-#define IRRADIANCE_RECORD 393192.0f
+#define IRRADIANCE_RECORD 393408.0f
 #define IRRADIANCE_CELLS 48.0f
 #define LAST_LEVEL 13.0f
 // Where the ambient tables begin, in pair records.
@@ -76,8 +76,12 @@ static inline rgb add_scaled(__constant const float* v, real s, rgb sum) {
 }
 
 // A map of its own, `cells` a side.
+static inline tap tap_of_map(octahedral o, float cells, float first) {
+    return tap_at(o.x * cells, o.y * cells, splat(cells), splat(cells), splat(first));
+}
+
 static inline rgb map_at(environment around, octahedral o, float cells, float first) {
-    return fetch_colour(around.maps, tap_at(o.x * cells, o.y * cells, splat(cells), splat(cells), splat(first)));
+    return fetch_colour(around.maps, tap_of_map(o, cells, first));
 }
 
 // E/pi of direction n by SH band 1.
@@ -120,23 +124,31 @@ static inline real level_of(real shininess) {
     return larger(LAST_LEVEL - log2_positive(n), splat(0.0f));
 }
 
-// Levels 2 k and 2 k + 1 have 384/2^k = 3 q cells a side, q = 2^(7-k), so that 6 (4^8 - 4^(8-k)) = 393216 - 24 q^2
+// Levels 2 k and 2 k + 1 have 384/2^k = 3 q cells a side, q = 2^(7-k), at least 12; so 6 (4^8 - 4^(8-k)) = 393216 - 24 q^2
 // records lie before them.
 static inline tap tap_of_level(octahedral o, integer level) {
     const real q = AS_REAL(((integer)(134) - (level >> 1)) << 23);
-    const real cells = 3.0f * q;
+    const real cells = larger(3.0f * q, splat(12.0f));
     const real odd = LANES_FROM_INTEGER(level & (integer)(1));
-    const real first = fma(q * q, fma(odd, splat(9.0f), splat(-24.0f)), splat(393216.0f));
+    const real first = fma(odd, cells * cells, fma(q * q, splat(-24.0f), splat(393216.0f)));
     return tap_at(o.x * cells, o.y * cells, cells, cells, first);
 }
 
 // The radiance that a lobe around R sees.
-static inline rgb radiance_at(environment around, octahedral o, real shininess) {
+static inline void ask_radiance(blend_request* r, octahedral o, real shininess) {
     const real level = level_of(shininess);
     const integer sharper = INTEGER_FROM_LANES(within(level, splat(LAST_LEVEL - 1.0f)));
     const real part = level - LANES_FROM_INTEGER(sharper);
-    return fetch_colours(around.maps, scale_tap(tap_of_level(o, sharper), 1.0f - part),
-                         scale_tap(tap_of_level(o, sharper + 1), part));
+    ask_blend(r, scale_tap(tap_of_level(o, sharper), 1.0f - part), scale_tap(tap_of_level(o, sharper + 1), part));
+}
+
+static inline rgb radiance_at(environment around, octahedral o, real shininess) {
+    blend_request r;
+    ask_radiance(&r, o, shininess);
+    FOR_EACH_HALF(h) {
+        answer_blend(around.maps, &r, h);
+    }
+    return blend_of(&r);
 }
 
 // 64 log2(n+1)/13
@@ -150,14 +162,9 @@ static inline tap ambient_tap(real cosine, real row, float first) {
     return tap_at(x, row, splat(AMBIENT_COSINES), splat(AMBIENT_EXPONENTS), splat(first));
 }
 
-// Scale (first) and bias (second).
-static inline pair ambient_at(environment around, real cosine, real row, float first) {
-    return fetch_pair(around.ambient, ambient_tap(cosine, row, first));
-}
-
-// A metal's own table.
-static inline rgb metal_ambient_at(environment around, real cosine, real row, float first) {
-    return fetch_colour(around.maps, ambient_tap(cosine, row, first));
+// A function of N.E for one exponent.
+static inline real ambient_curve_at(environment around, real cosine, ulong first) {
+    return curve_at(around.ambient + first, smaller(cosine, splat(1.0f)) * AMBIENT_COSINES);
 }
 
 // An anisotropic lobe is an isotropic one, spread along the axis of the smaller exponent: five lookups, placed and
@@ -244,13 +251,22 @@ static inline real sine_of_cosine(real x) {
     return square_root(larger((1.0f - x) * (1.0f + x), splat(0.0f)));
 }
 
-// K(x) = (2 s/pi) ((acos x - s x)/2 + x (1 + s + s^2)/(3 (1 + s)) - 1/3), s = sin (9.1).
+// K(x) = (2 s/pi) ((acos x - s x)/2 + x (1 + s + s^2)/(3 (1 + s)) - 1/3), s = sqrt(1 - x^2) (9.1). A smooth function of
+// the angle, fitted as P(x) + s Q(x): maximum error 2e-8, and no arc cosine.
 static inline real ambient_k(real cosine) {
     const real x = smaller(cosine, splat(1.0f));
     const real s = sine_of_cosine(x);
-    const real angle = angle_of(s, x);
-    const real quotient = x * fma(s, s + 1.0f, splat(1.0f)) * inverse(fma(s, splat(3.0f), splat(3.0f)));
-    return (2.0f * INV_PI_F) * s * (fma(0.5f, fma(-s, x, angle), quotient) - 0.33333333f);
+    real p = splat(0.0821081549f);
+    p = fma(p, x, splat(-0.140223131f));
+    p = fma(p, x, splat(-0.0592732467f));
+    p = fma(p, x, splat(0.210684747f));
+    p = fma(p, x, splat(-0.0932965502f));
+    real q = splat(-0.0199106429f);
+    q = fma(q, x, splat(0.0619516596f));
+    q = fma(q, x, splat(0.105859727f));
+    q = fma(q, x, splat(-0.528991938f));
+    q = fma(q, x, splat(0.381089926f));
+    return fma(s, q, p);
 }
 
 // 9.1, closed form.
@@ -378,6 +394,15 @@ static inline rgb ambient_diffuse_exponential_rgb(rgb a, real inverse_ne) {
 
 static inline rgb approximate_absorption_rgb(rgb depth) {
     return make_rgb(approximate_absorption(depth.r), approximate_absorption(depth.g), approximate_absorption(depth.b));
+}
+
+// 1 where a layer above the base has an interface.
+static inline real has_interface(real f0) {
+    return choose(f0 > splat(0.0f), splat(1.0f), splat(0.0f));
+}
+
+static inline rgb has_interface_rgb(rgb f0) {
+    return make_rgb(has_interface(f0.r), has_interface(f0.g), has_interface(f0.b));
 }
 
 // 1 where light meets the interface in air.

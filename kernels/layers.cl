@@ -10,6 +10,18 @@
 // Below this N.L means no light; its reciprocal is only ever multiplied by it.
 #define SMALLEST_NL 1e-6f
 
+// Amplitude of a layer's own F0, to the last digit: near 1, where the index goes to infinity, it decides what a grazing
+// ray sees.
+static inline real amplitude_of(real f0) {
+    const real root = square_root(f0);
+    const real residual = fma(-root, root, f0);
+    return fma(0.5f * residual, inverse(larger(root, splat(1e-15f))), root);
+}
+
+static inline rgb amplitude_of_rgb(rgb f0) {
+    return make_rgb(amplitude_of(f0.r), amplitude_of(f0.g), amplitude_of(f0.b));
+}
+
 // What lies below a layer: its own medium, or that of the layer above where it has no interface (F0 = 0).
 static inline real medium_below(real s, real above) {
     return choose(s > splat(0.0f), s, above);
@@ -58,8 +70,8 @@ static inline real interface_reflectance(real c2, real ga, real gb, real a, real
     const real z = 4.0f * (a - b) * (1.0f - a * b);
     const real s = larger(fma(1.0f - b, ga, (1.0f - a) * gb), splat(1e-6f));
     const real t = larger(fma(q * b1, ga, p * a1 * gb), splat(1e-6f));
-    const real ab = a1 * a1 * b1 * b1;
-    const real v = ab - 4.0f * (a * b1 * b1 + b * a1 * a1) - c2 * fma(p, p, q * q);
+    // a1^2 b1^2 - 4 (a b1^2 + b a1^2) - ..., where a1^2 b1^2 - 4 b a1^2 = p^2 does not cancel for b near 1.
+    const real v = fma(p, p, -4.0f * a * b1 * b1) - c2 * fma(p, p, q * q);
     const real inverse_st = inverse(s * t);
     const real rs_root = t * inverse_st;
     const real rp_root = s * inverse_st;

@@ -46,6 +46,39 @@ static inline tap scale_tap(tap t, real s) {
     return scaled;
 }
 
+#if LANES == 1
+#define LANE_OF(v, LANE) (v)
+#define FOR_EACH_LANE(X) X(_)
+#elif LANES == 4
+#define LANE_OF(v, LANE) ((v).LANE)
+#define FOR_EACH_LANE(X) X(s0) X(s1) X(s2) X(s3)
+#elif LANES == 8
+#define LANE_OF(v, LANE) ((v).LANE)
+#define FOR_EACH_LANE(X) X(s0) X(s1) X(s2) X(s3) X(s4) X(s5) X(s6) X(s7)
+#else
+#define LANE_OF(v, LANE) ((v).LANE)
+#define FOR_EACH_LANE(X)                                                                                               \
+    X(s0) X(s1) X(s2) X(s3) X(s4) X(s5) X(s6) X(s7) X(s8) X(s9) X(sa) X(sb) X(sc) X(sd) X(se) X(sf)
+#endif
+
+#if LANES == 16 && defined(__AVX512F__) && defined(__has_builtin)
+#if __has_builtin(__builtin_ia32_vpermi2varps512)
+#define CLSHADE_PERMUTE 1
+#endif
+#endif
+
+#ifdef CLSHADE_PERMUTE
+// Of 128 floats those with the given numbers: four shuffles of two registers each.
+static inline real permuted(__global const float* values, integer index) {
+    __global const real* v = (__global const real*)values;
+    const real low = choose((index & (integer)(32)) != (integer)(0), __builtin_ia32_vpermi2varps512(v[2], index, v[3]),
+                            __builtin_ia32_vpermi2varps512(v[0], index, v[1]));
+    const real high = choose((index & (integer)(32)) != (integer)(0), __builtin_ia32_vpermi2varps512(v[6], index, v[7]),
+                             __builtin_ia32_vpermi2varps512(v[4], index, v[5]));
+    return choose((index & (integer)(64)) != (integer)(0), high, low);
+}
+#endif
+
 #ifdef CLSHADE_SHUFFLES
 
 // Within each quarter of four lanes: the first two of a and b in turns, the last two in turns; the first halves of a
@@ -85,8 +118,8 @@ static inline real sum_quarters(real a, real b, real c, real d) {
     return LOW_HALVES(ab, cd) + HIGH_HALVES(ab, cd);
 }
 
-static inline real colour_record(__global const float* maps, int record) {
-    return *(__global const real*)(maps + (ulong)(uint)record * 16);
+static inline real colour_record(__global const float* maps, uint offset) {
+    return *(__global const real*)((__global const char*)maps + offset);
 }
 
 // From four vectors with red, green and blue of four pixels each to one of every channel.
@@ -100,106 +133,128 @@ static inline rgb gather_quarters(real a, real b, real c, real d) {
 }
 
 // Weights and records of 16 pixels in memory: from there a load brings a pixel's weights to all quarters, and its record
-// number to an address. Out of registers both are shuffles, of which the processor does one a cycle; and a loop over
-// quarters keeps the compiler from taking them back into registers (2.4 times the one-light kernel instead of 2.9).
+// number to an address. Out of registers both are shuffles, of which the processor does one a cycle; the empty assembly
+// line keeps the compiler from going back to them (2.3 times the one-light kernel instead of 2.9).
+#if defined(__x86_64__) || defined(__aarch64__)
+#define KEEP_IN_MEMORY(x) __asm__("" : "+m"(x))
+#else
+#define KEEP_IN_MEMORY(x)
+#endif
+
 typedef struct {
     float4 weights[16]; // of pixel 4 q + i at [4 i + q]
-    int record[16];
+    uint offset[16];    // of the record, in bytes
 } staged_tap;
 
-static inline void stage(staged_tap* to, tap t) {
+static inline void stage(staged_tap* to, tap t, int log2_bytes) {
     const pixel_weights w = weights_by_pixel(t);
     real* rows = (real*)to->weights;
     rows[0] = w.of0;
     rows[1] = w.of1;
     rows[2] = w.of2;
     rows[3] = w.of3;
-    *(integer*)to->record = t.record;
+    *(integer*)to->offset = t.record << log2_bytes;
+    KEEP_IN_MEMORY(*to);
+}
+
+// Lookups are asked for, then answered together, half of the group at a time, then read: one after the other each would
+// wait for its own loads.
+#define FOR_EACH_HALF(h) __attribute__((opencl_unroll_hint(2))) for (int h = 0; h < 2; ++h)
+
+typedef struct {
+    staged_tap t;
+    real quarters[4];
+} colour_request;
+
+typedef struct {
+    staged_tap t, u;
+    real quarters[4];
+} blend_request;
+
+typedef struct {
+    staged_tap t;
+    real halves[2];
+} pair_request;
+
+static inline void ask_colour(colour_request* r, tap t) {
+    stage(&r->t, t, 6);
+}
+
+// The sum of two taps.
+static inline void ask_blend(blend_request* r, tap t, tap u) {
+    stage(&r->t, t, 6);
+    stage(&r->u, u, 6);
+}
+
+static inline void ask_pair(pair_request* r, tap t) {
+    stage(&r->t, t, 5);
 }
 
 static inline real weighed_record(__global const float* maps, const staged_tap* t, int quarter, int i) {
     const float4 w = t->weights[4 * i + quarter];
-    return colour_record(maps, t->record[4 * quarter + i]) * (float16)(w, w, w, w);
-}
-
-static inline rgb fetch_colour(__global const float* maps, tap t) {
-    staged_tap a;
-    stage(&a, t);
-    real sums[4];
-    __attribute__((opencl_unroll_hint(1))) for (int q = 0; q < 4; ++q) {
-        sums[q] = sum_quarters(weighed_record(maps, &a, q, 0), weighed_record(maps, &a, q, 1),
-                               weighed_record(maps, &a, q, 2), weighed_record(maps, &a, q, 3));
-    }
-    return gather_quarters(sums[0], sums[1], sums[2], sums[3]);
+    return colour_record(maps, t->offset[4 * quarter + i]) * (float16)(w, w, w, w);
 }
 
 static inline real weighed_records(__global const float* maps, const staged_tap* t, const staged_tap* u, int quarter,
                                    int i) {
     const float4 w = t->weights[4 * i + quarter];
-    return fma(colour_record(maps, t->record[4 * quarter + i]), (float16)(w, w, w, w),
+    return fma(colour_record(maps, t->offset[4 * quarter + i]), (float16)(w, w, w, w),
                weighed_record(maps, u, quarter, i));
 }
 
-// The sum of two taps.
-static inline rgb fetch_colours(__global const float* maps, tap t, tap u) {
-    staged_tap a;
-    staged_tap b;
-    stage(&a, t);
-    stage(&b, u);
-    real sums[4];
-    __attribute__((opencl_unroll_hint(1))) for (int q = 0; q < 4; ++q) {
-        sums[q] = sum_quarters(weighed_records(maps, &a, &b, q, 0), weighed_records(maps, &a, &b, q, 1),
-                               weighed_records(maps, &a, &b, q, 2), weighed_records(maps, &a, &b, q, 3));
+static inline void answer_colour(__global const float* maps, colour_request* r, int side) {
+    for (int q = 2 * side; q < 2 * side + 2; ++q) {
+        r->quarters[q] = sum_quarters(weighed_record(maps, &r->t, q, 0), weighed_record(maps, &r->t, q, 1),
+                                      weighed_record(maps, &r->t, q, 2), weighed_record(maps, &r->t, q, 3));
     }
-    return gather_quarters(sums[0], sums[1], sums[2], sums[3]);
 }
 
-// Two pixels' records in one vector.
-static inline real pair_records(__global const float* maps, int a, int b) {
-    const float8 low = *(__global const float8*)(maps + (ulong)(uint)a * 8);
-    const float8 high = *(__global const float8*)(maps + (ulong)(uint)b * 8);
-    return (float16)(low, high);
+static inline void answer_blend(__global const float* maps, blend_request* r, int side) {
+    for (int q = 2 * side; q < 2 * side + 2; ++q) {
+        r->quarters[q] = sum_quarters(weighed_records(maps, &r->t, &r->u, q, 0), weighed_records(maps, &r->t, &r->u, q, 1),
+                                      weighed_records(maps, &r->t, &r->u, q, 2), weighed_records(maps, &r->t, &r->u, q, 3));
+    }
 }
 
-// Quarters of w twice each: 2 Q and 2 Q + 1 for the two pixels of a vector.
-#define SPREAD_PAIR_0(a) __builtin_shufflevector(a, a, 0, 1, 2, 3, 0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7)
-#define SPREAD_PAIR_1(a) __builtin_shufflevector(a, a, 8, 9, 10, 11, 8, 9, 10, 11, 12, 13, 14, 15, 12, 13, 14, 15)
-#define PAIR_TAP(HALF, I, A, B) (pair_records(maps, t.record.A, t.record.B) * SPREAD_PAIR_##HALF(w.of##I))
+// The records of pixels i of two neighbouring quarters in one vector.
+static inline real weighed_pair(__global const float* maps, const staged_tap* t, int side, int i) {
+    __global const char* bytes = (__global const char*)maps;
+    const float8 low = *(__global const float8*)(bytes + t->offset[8 * side + i]);
+    const float8 high = *(__global const float8*)(bytes + t->offset[8 * side + 4 + i]);
+    const float4 v = t->weights[4 * i + 2 * side];
+    const float4 w = t->weights[4 * i + 2 * side + 1];
+    return (float16)(low, high) * (float16)(v, v, w, w);
+}
 
-static inline pair fetch_pair(__global const float* maps, tap t) {
-    const pixel_weights w = weights_by_pixel(t);
-    // Quarters: first value of pixels 0-3, second of 0-3, first of 4-7, second of 4-7; then the same from 8 on.
-    const real low = sum_quarters(PAIR_TAP(0, 0, s0, s4), PAIR_TAP(0, 1, s1, s5), PAIR_TAP(0, 2, s2, s6),
-                                  PAIR_TAP(0, 3, s3, s7));
-    const real high = sum_quarters(PAIR_TAP(1, 0, s8, sc), PAIR_TAP(1, 1, s9, sd), PAIR_TAP(1, 2, sa, se),
-                                   PAIR_TAP(1, 3, sb, sf));
-    const pair p = {EVEN_QUARTERS(low, high), ODD_QUARTERS(low, high)};
+static inline void answer_pair(__global const float* maps, pair_request* r, int side) {
+    // Quarters: first value of four pixels, second of the same, first of the next four, second of those.
+    r->halves[side] = sum_quarters(weighed_pair(maps, &r->t, side, 0), weighed_pair(maps, &r->t, side, 1),
+                                   weighed_pair(maps, &r->t, side, 2), weighed_pair(maps, &r->t, side, 3));
+}
+
+static inline rgb colour_of(const colour_request* r) {
+    return gather_quarters(r->quarters[0], r->quarters[1], r->quarters[2], r->quarters[3]);
+}
+
+static inline rgb blend_of(const blend_request* r) {
+    return gather_quarters(r->quarters[0], r->quarters[1], r->quarters[2], r->quarters[3]);
+}
+
+static inline pair pair_of(const pair_request* r) {
+    const pair p = {EVEN_QUARTERS(r->halves[0], r->halves[1]), ODD_QUARTERS(r->halves[0], r->halves[1])};
     return p;
 }
 
 #else
 
-#if LANES == 1
-#define LANE_OF(v, LANE) (v)
-#define FOR_EACH_LANE(X) X(_)
-#elif LANES == 4
-#define LANE_OF(v, LANE) ((v).LANE)
-#define FOR_EACH_LANE(X) X(s0) X(s1) X(s2) X(s3)
-#elif LANES == 8
-#define LANE_OF(v, LANE) ((v).LANE)
-#define FOR_EACH_LANE(X) X(s0) X(s1) X(s2) X(s3) X(s4) X(s5) X(s6) X(s7)
-#else
-#define LANE_OF(v, LANE) ((v).LANE)
-#define FOR_EACH_LANE(X)                                                                                               \
-    X(s0) X(s1) X(s2) X(s3) X(s4) X(s5) X(s6) X(s7) X(s8) X(s9) X(sa) X(sb) X(sc) X(sd) X(se) X(sf)
-#endif
+#define FOR_EACH_HALF(h) for (int h = 0; h < 1; ++h)
 
 // The sum over four corners.
 static inline float weigh(float4 corners, float w00, float w10, float w01, float w11) {
     return fma(corners.s0, w00, fma(corners.s1, w10, fma(corners.s2, w01, corners.s3 * w11)));
 }
 
-static inline rgb fetch_colour(__global const float* maps, tap t) {
+static inline rgb colour_at(__global const float* maps, tap t) {
     rgb colour;
 #define FETCH_LANE(LANE)                                                                                               \
     {                                                                                                                  \
@@ -217,12 +272,7 @@ static inline rgb fetch_colour(__global const float* maps, tap t) {
     return colour;
 }
 
-// The sum of two taps.
-static inline rgb fetch_colours(__global const float* maps, tap t, tap u) {
-    return add_rgb(fetch_colour(maps, t), fetch_colour(maps, u));
-}
-
-static inline pair fetch_pair(__global const float* maps, tap t) {
+static inline pair pair_at(__global const float* maps, tap t) {
     pair p;
 #define FETCH_LANE(LANE)                                                                                               \
     {                                                                                                                  \
@@ -239,6 +289,97 @@ static inline pair fetch_pair(__global const float* maps, tap t) {
     return p;
 }
 
+typedef struct {
+    tap t;
+    rgb colour;
+} colour_request;
+
+typedef struct {
+    tap t, u;
+    rgb colour;
+} blend_request;
+
+typedef struct {
+    tap t;
+    pair values;
+} pair_request;
+
+static inline void ask_colour(colour_request* r, tap t) {
+    r->t = t;
+}
+
+// The sum of two taps.
+static inline void ask_blend(blend_request* r, tap t, tap u) {
+    r->t = t;
+    r->u = u;
+}
+
+static inline void ask_pair(pair_request* r, tap t) {
+    r->t = t;
+}
+
+static inline void answer_colour(__global const float* maps, colour_request* r, int side) {
+    r->colour = colour_at(maps, r->t);
+}
+
+static inline void answer_blend(__global const float* maps, blend_request* r, int side) {
+    r->colour = add_rgb(colour_at(maps, r->t), colour_at(maps, r->u));
+}
+
+static inline void answer_pair(__global const float* maps, pair_request* r, int side) {
+    r->values = pair_at(maps, r->t);
+}
+
+static inline rgb colour_of(const colour_request* r) {
+    return r->colour;
+}
+
+static inline rgb blend_of(const blend_request* r) {
+    return r->colour;
+}
+
+static inline pair pair_of(const pair_request* r) {
+    return r->values;
+}
+
 #endif
+
+// One lookup by itself.
+static inline rgb fetch_colour(__global const float* maps, tap t) {
+    colour_request r;
+    ask_colour(&r, t);
+    FOR_EACH_HALF(h) {
+        answer_colour(maps, &r, h);
+    }
+    return colour_of(&r);
+}
+
+// The same for the sum of two taps.
+static inline rgb fetch_blend(__global const float* maps, tap t, tap u) {
+    blend_request r;
+    ask_blend(&r, t, u);
+    FOR_EACH_HALF(h) {
+        answer_blend(maps, &r, h);
+    }
+    return blend_of(&r);
+}
+
+// A function of one variable as 128 lines: values at 0, 1, ..., 127 of x, then their slopes. 0 <= x <= 128.
+#define CURVE_LINES 128
+
+static inline real curve_at(__global const float* curve, real x) {
+    const integer line = INTEGER_FROM_LANES(within(x, splat(CURVE_LINES - 1.0f)));
+    const real part = x - LANES_FROM_INTEGER(line);
+#ifdef CLSHADE_PERMUTE
+    return fma(permuted(curve + CURVE_LINES, line), part, permuted(curve, line));
+#else
+    real value;
+#define FETCH_LANE(LANE)                                                                                               \
+    LANE_OF(value, LANE) = fma(curve[CURVE_LINES + LANE_OF(line, LANE)], LANE_OF(part, LANE), curve[LANE_OF(line, LANE)]);
+    FOR_EACH_LANE(FETCH_LANE)
+#undef FETCH_LANE
+    return value;
+#endif
+}
 
 #endif

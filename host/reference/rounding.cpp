@@ -68,13 +68,14 @@ struct Variants {
 
 /// sqrt(f0) and the index of refraction round once each: with q = sqrt(f0), n = (1 + q)/(1 - q) moves by
 /// u + 2 q u/(1 - q^2), relatively, and q/(1 - q^2) = (n - 1)(n + 1)/(4 n). Media of nearly the same index keep few
-/// digits of their contrast.
+/// digits of their contrast. Downwards, since q = 1, an infinite index, can go no other way: grazing light tells it
+/// from the float next to it.
 glm::dvec3 nudged_index(const glm::dvec3& n) {
     glm::dvec3 nudged = n;
     for (int i = 0; i < 3; ++i) {
-        if (!std::isinf(n[i])) {
-            nudged[i] += unit_roundoff * (n[i] + 0.5 * (n[i] * n[i] - 1.0));
-        }
+        const double q = std::isinf(n[i]) ? 1.0 : (n[i] - 1.0) / (n[i] + 1.0);
+        const double rounded = q * (1.0 - unit_roundoff);
+        nudged[i] = std::max(1.0, (1.0 + rounded) / (1.0 - rounded) * (1.0 - unit_roundoff));
     }
     return nudged;
 }

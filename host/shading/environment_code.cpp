@@ -16,25 +16,43 @@ bool zero(const Value& value) {
     return value.is(0.0);
 }
 
-/// A record or row number as a kernel takes it: whole numbers stay exact.
+/// A record's number as a kernel computes with it.
 std::string record_text(std::size_t record) {
     return fmt::format("{}.0f", record);
 }
 
+bool grey_number(const Value& value) {
+    return value.known && value.grey;
+}
+
 } // namespace
 
-EnvironmentCode::EnvironmentCode(const Frame& frame, std::size_t material, const StackCode& stack,
-                                 const MapsLayout& layout)
-    : material_(&frame.materials[material]), index_(material), stack_(&stack), layout_(&layout) {
+EnvironmentCode::EnvironmentCode(const BoundMaterial& material, const StackCode& stack, MapsLayout& maps)
+    : material_(&material), stack_(&stack), maps_(&maps) {
     for (std::size_t k = 0; k < material_->layers.size(); ++k) {
         add_layer(k);
     }
     add_diffuse();
-    body_.line(fmt::format("const rgb specular = {};", rgb_text(specular_)));
+    end_.line(fmt::format("const rgb specular = {};", rgb_text(specular_)));
+}
+
+std::string EnvironmentCode::answering() const {
+    const std::string loop = answers_.text().empty() ? "" : "    FOR_EACH_HALF(h) {\n" + answers_.text() + "    }\n";
+    return body_.text() + loop + end_.text();
 }
 
 std::string EnvironmentCode::name(std::string_view what, std::size_t k) const {
     return material_->layers.size() == 1 ? std::string(what) : fmt::format("{}_{}", what, k);
+}
+
+std::string EnvironmentCode::ask(std::string_view type, const std::string& name, std::string_view function,
+                                 const std::string& arguments) {
+    if (requests_.insert(name).second) {
+        members_ += fmt::format("    {}_request {};\n", type, name);
+        asked_.line(fmt::format("{}(&q->{}, {});", function, name, arguments));
+        answers_.line(fmt::format("answer_{}(around.{}, &q->{}, h);", type, type == "pair" ? "ambient" : "maps", name));
+    }
+    return name;
 }
 
 void EnvironmentCode::add_layer(std::size_t k) {
@@ -50,83 +68,137 @@ void EnvironmentCode::add_layer(std::size_t k) {
 }
 
 void EnvironmentCode::add_lobe(std::size_t k) {
-    const Value share = body_.name(name("reflected", k), product(reflected(k), reaching_));
-    const Value own = body_.name(name("lobe", k), product(radiance(k), share));
-    specular_ = zero(specular_) ? own : body_.name(name("specular", k), sum(specular_, own));
+    const Value seen = radiance(k);
+    const Value share = end_.name(name("reflected", k), product(reflected(k), reaching_));
+    const Value own = end_.name(name("lobe", k), product(seen, share));
+    specular_ = zero(specular_) ? own : end_.name(name("specular", k), sum(specular_, own));
 }
 
 Value EnvironmentCode::radiance(std::size_t k) {
     const LayerFacts& layer = facts(k);
-    const std::string variable = name("seen", k);
     if (material_->layers[k].specular == SpecularModel::blinn_phong_anisotropic) {
-        const bool known = layer.shininess_u.known && layer.shininess_v.known;
-        const std::string streak =
-            body_.declare("streak", name("streak", k),
-                          fmt::format("streak_of({}, {}, {})", layer.tangents, real_text(layer.shininess_u),
-                                      real_text(layer.shininess_v)));
-        const BlendedLevel* level =
-            known ? layout_->level_of(streak_shininess(layer.shininess_u.number.x, layer.shininess_v.number.x))
-                  : nullptr;
-        return body_.name(variable,
-                          Value::rgb(level == nullptr ? fmt::format("streak_at(around, s, {})", streak)
-                                                      : fmt::format("streak_in(around, s, {}, {}.0f, {})", streak,
-                                                                    level->cells, record_text(level->first))));
+        return streak_radiance(k);
     }
-    const BlendedLevel* level = layer.shininess.known ? layout_->level_of(layer.shininess.number.x) : nullptr;
-    return body_.name(variable, Value::rgb(level == nullptr ? fmt::format("radiance_at(around, a.mirror, {})",
-                                                                          real_text(layer.shininess))
-                                                            : fmt::format("map_at(around, a.mirror, {}.0f, {})",
-                                                                          level->cells, record_text(level->first))));
+    const std::string request = name("seen", k);
+    if (!layer.shininess.known) {
+        maps_->ask_levels();
+        return Value::rgb(fmt::format(
+            "blend_of(&q->{})", ask("blend", request, "ask_radiance", "a.mirror, " + real_text(layer.shininess))));
+    }
+    const BlendedLevel level = maps_->ask_level(layer.shininess.number.x);
+    return Value::rgb(fmt::format("colour_of(&q->{})", ask("colour", request, "ask_colour",
+                                                           fmt::format("tap_of_map(a.mirror, {}.0f, {})", level.cells,
+                                                                       record_text(level.first)))));
 }
 
-Value EnvironmentCode::ambient_row(const Value& shininess, std::size_t k) {
+Value EnvironmentCode::streak_radiance(std::size_t k) {
+    const LayerFacts& layer = facts(k);
+    const std::string streak = body_.declare("streak", name("streak", k),
+                                             fmt::format("streak_of({}, {}, {})", layer.tangents,
+                                                         real_text(layer.shininess_u), real_text(layer.shininess_v)));
+    std::string text = fmt::format("streak_at(around, s, {})", streak);
+    if (layer.shininess_u.known && layer.shininess_v.known) {
+        const BlendedLevel level =
+            maps_->ask_level(streak_shininess(layer.shininess_u.number.x, layer.shininess_v.number.x));
+        text = fmt::format("streak_in(around, s, {}, {}.0f, {})", streak, level.cells, record_text(level.first));
+    } else {
+        maps_->ask_levels();
+    }
+    return end_.name(name("seen", k), Value::rgb(text));
+}
+
+bool EnvironmentCode::is_linear(std::size_t k) const {
+    const SpecularModel model = material_->layers[k].specular;
+    return !is_exact() && (model == SpecularModel::blinn_phong || model == SpecularModel::blinn_phong_spectral);
+}
+
+Value EnvironmentCode::ambient_shininess(std::size_t k) {
+    const LayerFacts& layer = facts(k);
+    if (material_->layers[k].specular != SpecularModel::blinn_phong_anisotropic) {
+        return layer.shininess;
+    }
+    const Value& u = layer.shininess_u;
+    const Value& v = layer.shininess_v;
+    if (u.known && v.known) {
+        return Value::of(std::sqrt((u.number.x + 2.0) * (v.number.x + 2.0)) - 2.0);
+    }
+    return call("isotropic_shininess", {u, v});
+}
+
+Value EnvironmentCode::ambient_row(std::size_t k) {
+    const Value shininess = ambient_shininess(k);
     if (shininess.known) {
         const double n = std::min(shininess.number.x, std::exp2(ambient_octaves) - 1.0);
         return Value::of(ambient_exponents * std::log2(n + 1.0) / ambient_octaves);
     }
-    return body_.name(name("row", k), Value::real(fmt::format("ambient_row({})", shininess.text)));
+    return Value::real(fmt::format("ambient_row({})", shininess.text));
+}
+
+Value EnvironmentCode::ambient(std::size_t k, const Value& scale_factor, const Value& bias_factor) {
+    const Value shininess = ambient_shininess(k);
+    if (shininess.known) {
+        const auto curve = [&](double scale, double bias) {
+            const std::size_t first = maps_->ask_curve(shininess.number.x, is_linear(k), scale, bias);
+            return once(fmt::format("curve_{}", first),
+                        [&] { return Value::real(fmt::format("ambient_curve_at(around, s.ne, {})", first)); });
+        };
+        if (grey_number(scale_factor) && grey_number(bias_factor)) {
+            return curve(scale_factor.number.x, bias_factor.number.x);
+        }
+        if (scale_factor.known && bias_factor.known && bias_factor.number == scale_factor.number) {
+            return product(scale_factor, curve(1.0, 1.0));
+        }
+        return sum(product(scale_factor, curve(1.0, 0.0)), product(bias_factor, curve(0.0, 1.0)));
+    }
+    const std::string request = ask("pair", name("ambient", k), "ask_pair",
+                                    fmt::format("ambient_tap(s.ne, {}, {})", real_text(ambient_row(k)),
+                                                is_linear(k) ? "AMBIENT_LINEAR" : "AMBIENT_EXACT"));
+    const std::string pair = name("scale_bias", k);
+    if (requests_.insert(pair).second) {
+        end_.line(fmt::format("const pair {} = pair_of(&q->{});", pair, request));
+    }
+    const Value scale = Value::real(pair + ".first");
+    const Value bias = Value::real(pair + ".second");
+    return sum(product(scale_factor, scale), product(bias_factor, bias));
+}
+
+Value EnvironmentCode::metallic(std::size_t k) {
+    const std::size_t first = maps_->ask_metal(material_->layers[k].metal, is_linear(k));
+    const std::string request =
+        ask("colour", name("metallic", k), "ask_colour",
+            fmt::format("ambient_tap(s.ne, {}, {})", real_text(ambient_row(k)), record_text(first)));
+    return product(Value::rgb(fmt::format("colour_of(&q->{})", request)), facts(k).reflecting);
 }
 
 Value EnvironmentCode::reflected(std::size_t k) {
     const LayerFacts& layer = facts(k);
-    const SpecularModel model = material_->layers[k].specular;
-    Value shininess = layer.shininess;
-    bool linear = !is_exact() && (model == SpecularModel::blinn_phong || model == SpecularModel::blinn_phong_spectral);
-    if (model == SpecularModel::blinn_phong_anisotropic) {
-        const Value& u = layer.shininess_u;
-        const Value& v = layer.shininess_v;
-        shininess = u.known && v.known ? Value::of(std::sqrt((u.number.x + 2.0) * (v.number.x + 2.0)) - 2.0)
-                                       : body_.name(name("isotropic", k), call("isotropic_shininess", {u, v}));
-    }
-    const Value row = ambient_row(shininess, k);
+    const Value one = Value::of(1.0);
     const Value in_air = outer(k);
-    Value own; // of a metal met from air
-    if (model == SpecularModel::blinn_phong_spectral && !zero(in_air)) {
-        const MetalMap* map = layout_->metal_of(index_, k);
-        own = body_.name(name("metallic", k), product(Value::rgb(fmt::format("metal_ambient_at(around, s.ne, {}, {})",
-                                                                             real_text(row), record_text(map->first))),
-                                                      layer.reflecting));
-        if (in_air.is(1.0)) {
-            return own;
-        }
+    const auto met_in_air = [&] {
+        return material_->layers[k].specular == SpecularModel::blinn_phong_spectral
+                   ? metallic(k)
+                   : ambient(k, is_exact() ? layer.f0 : layer.r, present(k));
+    };
+    const auto met_inside = [&] {
+        const Value inner = is_exact() ? fresnel(k) : layer.r;
+        return inner.known ? ambient(k, inner, inner) : product(inner, ambient(k, one, one));
+    };
+    if (in_air.is(1.0)) {
+        return met_in_air();
     }
-    const std::string pair = body_.declare(
-        "pair", name("ambient", k),
-        fmt::format("ambient_at(around, s.ne, {}, {})", real_text(row), linear ? "AMBIENT_LINEAR" : "AMBIENT_EXACT"));
-    const Value scale = Value::real(pair + ".first");
-    const Value bias = Value::real(pair + ".second");
-    const Value whole = body_.name(name("whole", k), sum(scale, bias));
-    const Value inner = is_exact() ? fresnel(k) : layer.r;
-    if (zero(in_air)) {
-        return product(inner, whole);
+    if (in_air.is(0.0)) {
+        return met_inside();
     }
-    if (own.text.empty()) {
-        own = sum(product(is_exact() ? layer.f0 : layer.r, scale), bias);
-        if (in_air.is(1.0)) {
-            return own;
-        }
+    return sum(product(in_air, met_in_air()), product(complement(in_air), met_inside()));
+}
+
+Value EnvironmentCode::present(std::size_t k) {
+    const Value& f0 = facts(k).f0;
+    if (is_base(k)) {
+        return Value::of(1.0);
     }
-    return sum(product(in_air, own), product(complement(in_air), product(inner, whole)));
+    return f0.known ? Value::of(glm::dvec3(glm::greaterThan(f0.number, glm::dvec3(0.0))))
+                    : once(name("present", k), [&] { return call("has_interface", {f0}); });
 }
 
 Value EnvironmentCode::outer(std::size_t k) {
@@ -286,7 +358,8 @@ void EnvironmentCode::add_diffuse() {
         }
     }
     const Value colour = product(left, stack_->diffuse().albedo);
-    body_.line(fmt::format("const rgb diffuse = {};", rgb_text(product(Value::rgb(diffuse_light()), colour))));
+    const std::string light = diffuse_light();
+    body_.line(fmt::format("const rgb diffuse = {};", rgb_text(product(Value::rgb(light), colour))));
 }
 
 Value EnvironmentCode::shared(const std::string& name, const std::string& expression) {

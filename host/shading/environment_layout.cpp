@@ -9,46 +9,84 @@ namespace clshade {
 
 namespace {
 
-constexpr double largest_shininess = 65536.0;
+constexpr std::size_t ambient_cells =
+    static_cast<std::size_t>(ambient_cosines) * static_cast<std::size_t>(ambient_exponents);
 
 std::size_t cells_of(int side) {
     return static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
 }
 
-/// The value that a constant parameter has in every pixel (rule 6), none if it varies.
-std::optional<double> constant_shininess(const BoundParameter& parameter) {
-    if (!parameter.is_constant()) {
-        return std::nullopt;
-    }
-    return std::clamp(parameter.constant.x, 0.0, largest_shininess);
+bool same_metal(const Metal& a, const Metal& b) {
+    return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
+                      [](const ComplexIndex& x, const ComplexIndex& y) {
+                          return x.wavelength == y.wavelength && x.n == y.n && x.k == y.k;
+                      });
 }
 
-/// The exponent at which a layer looks into the levels; none if it varies.
-std::optional<double> looked_up_at(const BoundLayer& layer) {
-    if (layer.specular != SpecularModel::blinn_phong_anisotropic) {
-        return constant_shininess(layer.shininess);
-    }
-    const auto u = constant_shininess(layer.shininess_u);
-    const auto v = constant_shininess(layer.shininess_v);
-    if (!u || !v) {
-        return std::nullopt;
-    }
-    return streak_shininess(*u, *v);
+bool same(const MetalMap& a, const MetalMap& b) {
+    return a.linear == b.linear && same_metal(a.metal, b.metal);
+}
+
+bool same(const AmbientCurve& a, const AmbientCurve& b) {
+    return a.shininess == b.shininess && a.linear == b.linear && a.scale_factor == b.scale_factor &&
+           a.bias_factor == b.bias_factor;
+}
+
+bool same(const BlendedLevel& a, const BlendedLevel& b) {
+    return a.shininess == b.shininess;
+}
+
+template <class T>
+const T* find_same(const std::vector<T>& all, const T& wanted) {
+    const auto found = std::find_if(all.begin(), all.end(), [&wanted](const T& one) { return same(one, wanted); });
+    return found == all.end() ? nullptr : &*found;
+}
+
+template <class T>
+bool all_same(const std::vector<T>& a, const std::vector<T>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return same(x, y); });
 }
 
 } // namespace
 
-const BlendedLevel* MapsLayout::level_of(double shininess) const {
-    const auto found = std::find_if(blended.begin(), blended.end(),
-                                    [shininess](const BlendedLevel& level) { return level.shininess == shininess; });
-    return found == blended.end() ? nullptr : &*found;
+MapsLayout::MapsLayout() : records_(irradiance_record() + cells_of(irradiance_cells)) {}
+
+BlendedLevel MapsLayout::ask_level(double shininess) {
+    BlendedLevel level{shininess, records_, level_cells(static_cast<int>(level_at(shininess)))};
+    if (const BlendedLevel* known = find_same(blended_, level)) {
+        return *known;
+    }
+    records_ += cells_of(level.cells);
+    blended_.push_back(level);
+    return level;
 }
 
-const MetalMap* MapsLayout::metal_of(std::size_t material, std::size_t layer) const {
-    const auto found = std::find_if(metals.begin(), metals.end(), [material, layer](const MetalMap& map) {
-        return map.material == material && map.layer == layer;
-    });
-    return found == metals.end() ? nullptr : &*found;
+std::size_t MapsLayout::ask_metal(const Metal& metal, bool linear) {
+    MetalMap map{metal, linear, records_};
+    if (const MetalMap* known = find_same(metals_, map)) {
+        return known->first;
+    }
+    records_ += ambient_cells;
+    metals_.push_back(map);
+    return map.first;
+}
+
+std::size_t MapsLayout::ask_curve(double shininess, bool linear, double scale_factor, double bias_factor) {
+    const AmbientCurve curve{shininess, linear, scale_factor, bias_factor, ambient_floats()};
+    if (const AmbientCurve* known = find_same(curves_, curve)) {
+        return known->first;
+    }
+    curves_.push_back(curve);
+    return curve.first;
+}
+
+std::size_t MapsLayout::ambient_floats() const {
+    return 2 * ambient_cells * pair_floats + curves_.size() * curve_floats;
+}
+
+bool operator==(const MapsLayout& a, const MapsLayout& b) {
+    return a.levels() == b.levels() && all_same(a.blended(), b.blended()) && all_same(a.metals(), b.metals()) &&
+           all_same(a.curves(), b.curves());
 }
 
 double level_at(double shininess) {
@@ -68,41 +106,14 @@ std::size_t irradiance_record() {
     return level_record(radiance_levels);
 }
 
+std::size_t ambient_table_float(bool linear) {
+    return linear ? ambient_cells * pair_floats : 0;
+}
+
 double streak_shininess(double shininess_u, double shininess_v) {
     const double wide = 1.0 / std::max(std::min(shininess_u, shininess_v), 1.0);
     const double narrow = 1.0 / std::max(std::max(shininess_u, shininess_v), 1.0);
     return 1.0 / std::max(narrow, wide / 8.0);
-}
-
-MapsLayout maps_layout(const Frame& frame) {
-    MapsLayout layout;
-    if (!frame.environment) {
-        return layout;
-    }
-    layout.records = irradiance_record() + cells_of(irradiance_cells);
-    for (std::size_t i = 0; i < frame.materials.size(); ++i) {
-        const BoundMaterial& material = frame.materials[i];
-        for (std::size_t k = 0; k < material.layers.size(); ++k) {
-            const BoundLayer& layer = material.layers[k];
-            if (layer.specular == SpecularModel::none) {
-                continue;
-            }
-            if (layer.specular == SpecularModel::blinn_phong_spectral) {
-                layout.metals.push_back({i, k, material.fresnel == FresnelModel::constant, layout.records});
-                layout.records +=
-                    static_cast<std::size_t>(ambient_cosines) * static_cast<std::size_t>(ambient_exponents);
-            }
-            const std::optional<double> shininess = looked_up_at(layer);
-            if (!shininess) {
-                layout.levels = true;
-            } else if (layout.level_of(*shininess) == nullptr) {
-                const int cells = level_cells(static_cast<int>(level_at(*shininess)));
-                layout.blended.push_back({*shininess, layout.records, cells});
-                layout.records += cells_of(cells);
-            }
-        }
-    }
-    return layout;
 }
 
 } // namespace clshade

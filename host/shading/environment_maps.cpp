@@ -4,18 +4,15 @@
 #include "host/environment/filter_layout.h"
 #include "host/shading/metal_curve.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace clshade {
 
 namespace {
 
-constexpr std::size_t colour_floats = 16;
-constexpr std::size_t pair_floats = 8;
 /// Kernels compute record numbers in single precision.
 constexpr std::size_t most_records = std::size_t{1} << 24U;
 
@@ -46,11 +43,8 @@ ReflectanceCurve curve_of(const Metal& metal) {
     return {curve.bend, curve.coefficients};
 }
 
-bool same_metal(const Metal& a, const Metal& b) {
-    return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
-                      [](const ComplexIndex& x, const ComplexIndex& y) {
-                          return x.wavelength == y.wavelength && x.n == y.n && x.k == y.k;
-                      });
+std::shared_ptr<const LatLong> shown_picture(const BoundEnvironment& environment) {
+    return environment.background ? environment.image : nullptr;
 }
 
 } // namespace
@@ -115,51 +109,47 @@ std::vector<float> blended_level(const FilteredSet& maps, double shininess) {
     return blend;
 }
 
-EnvironmentMaps::Origin EnvironmentMaps::origin_of(const Frame& frame, const MapsLayout& layout) {
-    const BoundEnvironment& environment = *frame.environment;
-    Origin origin;
-    origin.maps = environment.maps;
-    origin.picture = environment.background ? environment.image : nullptr;
-    origin.intensity = environment.intensity;
-    for (const BlendedLevel& level : layout.blended) {
-        origin.exponents.push_back(level.shininess);
+void fill_curve(std::span<float> curve, const AmbientTables& tables, const AmbientCurve& wanted) {
+    constexpr auto columns = static_cast<std::size_t>(ambient_cosines) + 1;
+    const std::vector<float>& table = wanted.linear ? tables.linear : tables.exact;
+    const double n = std::min(wanted.shininess, std::exp2(ambient_octaves) - 1.0);
+    const double row = ambient_exponents * std::log2(n + 1.0) / ambient_octaves;
+    const auto above = std::min(static_cast<std::size_t>(row), static_cast<std::size_t>(ambient_exponents - 1));
+    const double part = row - static_cast<double>(above);
+    std::array<double, columns> values{};
+    for (std::size_t i = 0; i < columns; ++i) {
+        const auto at = [&](std::size_t channel) {
+            const std::size_t upper = 2 * (above * columns + i) + channel;
+            return (1.0 - part) * static_cast<double>(table[upper]) +
+                   part * static_cast<double>(table[upper + 2 * columns]);
+        };
+        values[i] = wanted.scale_factor * at(0) + wanted.bias_factor * at(1);
     }
-    for (const MetalMap& map : layout.metals) {
-        origin.metals.push_back(frame.materials[map.material].layers[map.layer].metal);
-        origin.linear.push_back(map.linear);
+    for (std::size_t i = 0; i + 1 < columns; ++i) {
+        curve[i] = static_cast<float>(values[i]);
+        curve[columns - 1 + i] = static_cast<float>(values[i + 1] - values[i]);
     }
-    origin.levels = layout.levels;
-    return origin;
 }
 
-bool EnvironmentMaps::serve(const Frame& frame) const {
-    const Origin wanted = origin_of(frame, maps_layout(frame));
-    return wanted.maps == origin_.maps && wanted.picture == origin_.picture && wanted.intensity == origin_.intensity &&
-           wanted.exponents == origin_.exponents && wanted.linear == origin_.linear &&
-           wanted.levels == origin_.levels &&
-           std::equal(wanted.metals.begin(), wanted.metals.end(), origin_.metals.begin(), origin_.metals.end(),
-                      same_metal);
+bool EnvironmentMaps::serve(const BoundEnvironment& environment, const MapsLayout& layout) const {
+    return environment.maps == set_ && shown_picture(environment) == shown_ && environment.intensity == intensity_ &&
+           layout == layout_;
 }
 
-EnvironmentMaps::EnvironmentMaps(Device& device, const Frame& frame, Prefilter& prefilter) {
-    if (!frame.environment->maps) {
+EnvironmentMaps::EnvironmentMaps(Device& device, const BoundEnvironment& environment, const MapsLayout& layout,
+                                 Prefilter& prefilter)
+    : set_(environment.maps), shown_(shown_picture(environment)), intensity_(environment.intensity), layout_(layout) {
+    if (!set_) {
         throw std::invalid_argument("the frame's environment has not been filtered");
     }
-    const MapsLayout layout = maps_layout(frame);
-    if (layout.records > most_records) {
-        throw RuntimeFailure(fmt::format("{}: the materials have too many different exponents for an environment; use "
-                                         "fewer, or a shininess channel",
-                                         frame.file));
+    check_sizes(*set_);
+    if (layout_.records() > most_records) {
+        throw RuntimeFailure("the materials have too many different exponents for an environment; use fewer, or a "
+                             "shininess channel");
     }
-    origin_ = origin_of(frame, layout);
-    maps_ = AlignedBuffer(layout.records * colour_floats);
-    fill(frame, layout, prefilter);
+    fill(prefilter);
     fill_ambient(prefilter);
-    if (origin_.picture) {
-        fill_picture(*origin_.picture);
-    } else {
-        picture_ = AlignedBuffer(colour_floats); // no device takes an empty buffer
-    }
+    fill_picture();
     const auto bind = [&device](AlignedBuffer& memory) {
         Buffer buffer(device, std::as_writable_bytes(memory.span()), Access::read);
         buffer.upload();
@@ -170,40 +160,45 @@ EnvironmentMaps::EnvironmentMaps(Device& device, const Frame& frame, Prefilter& 
     picture_buffer_ = bind(picture_);
 }
 
-void EnvironmentMaps::fill(const Frame& frame, const MapsLayout& layout, Prefilter& prefilter) {
-    const FilteredSet& maps = *origin_.maps;
-    check_sizes(maps);
+void EnvironmentMaps::fill(Prefilter& prefilter) {
+    maps_ = AlignedBuffer(layout_.records() * colour_floats);
     const auto records = [this](std::size_t first) { return maps_.span().subspan(first * colour_floats); };
-    for (int level = 0; layout.levels && level < radiance_levels; ++level) {
-        fill_colour_records(records(level_record(level)), maps.radiance[static_cast<std::size_t>(level)],
-                            level_cells(level), level_cells(level), origin_.intensity);
+    for (int level = 0; layout_.levels() && level < radiance_levels; ++level) {
+        fill_colour_records(records(level_record(level)), set_->radiance[static_cast<std::size_t>(level)],
+                            level_cells(level), level_cells(level), intensity_);
     }
-    fill_colour_records(records(irradiance_record()), maps.irradiance, irradiance_cells, irradiance_cells,
-                        origin_.intensity);
-    for (const BlendedLevel& level : layout.blended) {
-        fill_colour_records(records(level.first), blended_level(maps, level.shininess), level.cells, level.cells,
-                            origin_.intensity);
+    fill_colour_records(records(irradiance_record()), set_->irradiance, irradiance_cells, irradiance_cells, intensity_);
+    for (const BlendedLevel& level : layout_.blended()) {
+        fill_colour_records(records(level.first), blended_level(*set_, level.shininess), level.cells, level.cells,
+                            intensity_);
     }
-    for (const MetalMap& map : layout.metals) {
-        const Metal& metal = frame.materials[map.material].layers[map.layer].metal;
-        fill_colour_records(records(map.first), prefilter.spectral_table(curve_of(metal), map.linear), ambient_cosines,
-                            ambient_exponents, glm::dvec3(1.0));
+    for (const MetalMap& map : layout_.metals()) {
+        fill_colour_records(records(map.first), prefilter.spectral_table(curve_of(map.metal), map.linear),
+                            ambient_cosines, ambient_exponents, glm::dvec3(1.0));
     }
 }
 
 void EnvironmentMaps::fill_ambient(Prefilter& prefilter) {
     const AmbientTables tables = prefilter.ambient_tables();
-    const std::size_t table = static_cast<std::size_t>(ambient_cosines) * ambient_exponents * pair_floats;
-    ambient_ = AlignedBuffer(2 * table);
-    fill_pair_records(ambient_.span(), tables.exact, ambient_cosines, ambient_exponents);
-    fill_pair_records(ambient_.span().subspan(table), tables.linear, ambient_cosines, ambient_exponents);
+    ambient_ = AlignedBuffer(whole_lines(layout_.ambient_floats()));
+    fill_pair_records(ambient_.span().subspan(ambient_table_float(false)), tables.exact, ambient_cosines,
+                      ambient_exponents);
+    fill_pair_records(ambient_.span().subspan(ambient_table_float(true)), tables.linear, ambient_cosines,
+                      ambient_exponents);
+    for (const AmbientCurve& curve : layout_.curves()) {
+        fill_curve(ambient_.span().subspan(curve.first, curve_floats), tables, curve);
+    }
 }
 
-void EnvironmentMaps::fill_picture(const LatLong& picture) {
-    const std::size_t texels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+void EnvironmentMaps::fill_picture() {
+    if (!shown_) {
+        picture_ = AlignedBuffer(colour_floats); // no device takes an empty buffer
+        return;
+    }
+    const std::size_t texels = static_cast<std::size_t>(shown_->width) * static_cast<std::size_t>(shown_->height);
     picture_ = AlignedBuffer(whole_lines(4 * texels));
     for (std::size_t i = 0; i < texels; ++i) {
-        std::copy_n(picture.rgb.data() + 3 * i, 3, picture_.data() + 4 * i);
+        std::copy_n(shown_->rgb.data() + 3 * i, 3, picture_.data() + 4 * i);
     }
 }
 

@@ -22,35 +22,33 @@ void fill_pair_records(std::span<float> records, std::span<const float> vertices
 /// The vertices of a map for one exponent: what interpolation between two levels gives, on the grid of the finer one.
 [[nodiscard]] std::vector<float> blended_level(const FilteredSet& maps, double shininess);
 
+/// scale_factor scale + bias_factor bias along N.E for one exponent, as 128 values and 128 slopes.
+void fill_curve(std::span<float> curve, const AmbientTables& tables, const AmbientCurve& wanted);
+
 /// Buffers of one environment for the materials of a frame. Not movable: buffers stand on its memory.
 class EnvironmentMaps {
   public:
-    /// The frame's environment must have its maps. Throws RuntimeFailure where the device cannot hold them.
-    EnvironmentMaps(Device& device, const Frame& frame, Prefilter& prefilter);
+    /// The environment must have its maps. Throws RuntimeFailure where the device cannot hold them.
+    EnvironmentMaps(Device& device, const BoundEnvironment& environment, const MapsLayout& layout,
+                    Prefilter& prefilter);
 
-    /// Do these maps serve the frame too?
-    [[nodiscard]] bool serve(const Frame& frame) const;
+    /// Do these maps serve another frame's environment and materials too?
+    [[nodiscard]] bool serve(const BoundEnvironment& environment, const MapsLayout& layout) const;
     [[nodiscard]] const Buffer& maps() const { return maps_buffer_; }
     [[nodiscard]] const Buffer& ambient() const { return ambient_buffer_; }
     [[nodiscard]] const Buffer& picture() const { return picture_buffer_; }
 
   private:
-    /// What the maps were made from.
-    struct Origin {
-        std::shared_ptr<const FilteredSet> maps;
-        std::shared_ptr<const LatLong> picture; ///< null without background
-        glm::dvec3 intensity{1.0};
-        std::vector<double> exponents;
-        std::vector<Metal> metals;
-        std::vector<bool> linear; ///< of each metal
-        bool levels = false;
-    };
-    [[nodiscard]] static Origin origin_of(const Frame& frame, const MapsLayout& layout);
-    void fill(const Frame& frame, const MapsLayout& layout, Prefilter& prefilter);
+    void fill(Prefilter& prefilter);
     void fill_ambient(Prefilter& prefilter);
-    void fill_picture(const LatLong& picture);
+    void fill_picture();
 
-    Origin origin_;
+    // What the maps were made from.
+    std::shared_ptr<const FilteredSet> set_;
+    std::shared_ptr<const LatLong> shown_; ///< null without background
+    glm::dvec3 intensity_;
+    MapsLayout layout_;
+
     AlignedBuffer maps_;
     AlignedBuffer ambient_;
     AlignedBuffer picture_;

@@ -1,7 +1,6 @@
 #include "host/shading/material_code.h"
 
 #include "host/shading/environment_code.h"
-#include "host/shading/environment_layout.h"
 #include "host/shading/parameter_code.h"
 #include "host/shading/stack_code.h"
 
@@ -167,11 +166,17 @@ std::string claim(const BoundMaterial& material, bool by_id) {
 constexpr std::string_view environment_parameters = ", surroundings a, environment around";
 constexpr std::string_view environment_arguments = ", a, around";
 
-std::string environment_function(const EnvironmentCode& code, std::size_t index) {
-    return fmt::format("// Adds the light of the environment.\n"
-                       "static inline radiance surround_{0}(radiance sum, material_{0} m, surface s, surroundings a,\n"
-                       "    environment around) {{\n{1}    return add_environment(sum, diffuse, specular);\n}}\n\n",
-                       index, code.text());
+std::string environment_functions(const EnvironmentCode& code, std::size_t index) {
+    const std::string members = code.requests().empty() ? "    mask none;\n" : code.requests();
+    return fmt::format(
+        "typedef struct {{\n{1}}} requests_{0};\n\n"
+        "// Asks for what the material sees of the environment.\n"
+        "static inline void ask_{0}(requests_{0}* q, material_{0} m, surface s, surroundings a) {{\n{2}}}\n\n"
+        "// Adds the light of the environment.\n"
+        "static inline radiance surround_{0}(radiance sum, requests_{0}* q, material_{0} m, surface s,\n"
+        "    surroundings a, environment around) {{\n{3}    return add_environment(sum, diffuse, specular);\n"
+        "}}\n\n",
+        index, members, code.asking(), code.answering());
 }
 
 /// The function that takes a material from planes to radiance. One light is met by the caller, once for all materials.
@@ -187,10 +192,12 @@ std::string shade_material_function(std::size_t index, bool one_light, bool surr
                     index);
     text += one_light ? "incidence i, rgb e0" : "__global const LightConstants* lights";
     text += fmt::format("{}) {{\n", surrounded ? environment_parameters : "");
-    text += fmt::format("    const material_{0} m = read_material_{0}(in, s, frame);\n"
-                        "    const sums_{0} none = {{0}};\n"
-                        "    sums_{0} sums = none;\n",
-                        index);
+    text +=
+        fmt::format("    const material_{0} m = read_material_{0}(in, s, frame);\n"
+                    "{1}"
+                    "    const sums_{0} none = {{0}};\n"
+                    "    sums_{0} sums = none;\n",
+                    index, surrounded ? fmt::format("    requests_{0} q;\n    ask_{0}(&q, m, s, a);\n", index) : "");
     if (one_light) {
         text += fmt::format("    sums = add_light_{}(sums, m, s, i, e0);\n", index) + own;
     } else {
@@ -202,15 +209,14 @@ std::string shade_material_function(std::size_t index, bool one_light, bool surr
                 own + "    }\n";
     }
     const std::string_view result =
-        surrounded ? "surround_{0}(reflect_{0}(m, sums), m, s, a, around)" : "reflect_{0}(m, sums)";
+        surrounded ? "surround_{0}(reflect_{0}(m, sums), &q, m, s, a, around)" : "reflect_{0}(m, sums)";
     return text + fmt::format("    return {};\n}}\n\n", fmt::format(fmt::runtime(result), index));
 }
 
-std::string material_functions(const Frame& frame, std::size_t index, const MapsLayout& maps,
-                               std::vector<std::string>& warnings) {
+std::string material_functions(const Frame& frame, std::size_t index, MaterialsSource& source) {
     const BoundMaterial& material = frame.materials[index];
     const StackCode code(frame, index);
-    warnings.insert(warnings.end(), code.warnings().begin(), code.warnings().end());
+    source.warnings.insert(source.warnings.end(), code.warnings().begin(), code.warnings().end());
     std::string text = code.functions();
     text += fmt::format("// Material {}, \"{}\": {}\n", index, comment_text(material.name), model_key(material));
     for (std::size_t k = 0; k < material.layers.size(); ++k) {
@@ -219,7 +225,7 @@ std::string material_functions(const Frame& frame, std::size_t index, const Maps
     text +=
         structs(code, index) + read_function(code, index) + light_function(code, index) + reflect_function(code, index);
     if (frame.environment) {
-        text += environment_function(EnvironmentCode(frame, index, code, maps), index);
+        text += environment_functions(EnvironmentCode(material, code, source.maps), index);
     }
     return text + shade_material_function(index, frame.lights.size() == 1, frame.environment.has_value());
 }
@@ -294,9 +300,8 @@ MaterialsSource materials_source(const Frame& frame) {
         "#include \"anisotropic.cl\"\n#include \"blinn_phong.cl\"\n#include \"diffuse.cl\"\n"
         "#include \"environment.cl\"\n"
         "#include \"layers.cl\"\n#include \"parameters.cl\"\n#include \"radiance.cl\"\n#include \"spectral.cl\"\n\n";
-    const MapsLayout maps = maps_layout(frame);
     for (std::size_t k = 0; k < frame.materials.size(); ++k) {
-        source.text += material_functions(frame, k, maps, source.warnings);
+        source.text += material_functions(frame, k, source);
     }
     source.text += shade_function(frame) + emission_function(frame) + "\n#endif\n";
     return source;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/gbuffer/frame.h"
+#include "host/shading/environment_layout.h"
 
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct MaterialsSource {
     std::string text;
     /// Fitted Fresnel curves of metals that are further than 1e-5 from the spectral sum, in words.
     std::vector<std::string> warnings;
+    /// Where the source looks up an environment.
+    MapsLayout maps;
 };
 [[nodiscard]] MaterialsSource materials_source(const Frame& frame);
 

@@ -223,9 +223,8 @@ std::string Shader::build_options() const {
     return fmt::format("-DLANES={}", lanes_);
 }
 
-const Program& Shader::program_for(const Frame& frame) {
+const Program& Shader::program_for(const Frame& frame, const MaterialsSource& materials) {
     const std::string layout = frame_layout_source(frame, options_.aovs);
-    const MaterialsSource materials = materials_source(frame);
     const std::string options = build_options();
     const std::string key = layout + materials.text + options;
     auto found = programs_.find(key);
@@ -248,17 +247,19 @@ PreparedFrame Shader::prepare(Frame& frame, std::shared_ptr<PictureMemory> memor
     if (static_cast<int>(names.size()) != memory->result.count()) {
         throw std::invalid_argument("a frame's outputs do not fit the picture's memory");
     }
-    const Program& program = program_for(frame);
+    const MaterialsSource materials = materials_source(frame);
+    const Program& program = program_for(frame, materials);
     return PreparedFrame(std::make_unique<PreparedFrame::State>(*device_, program, frame, std::move(names), lanes_,
-                                                                std::move(memory), maps_for(frame)));
+                                                                std::move(memory), maps_for(frame, materials)));
 }
 
-std::shared_ptr<const EnvironmentMaps> Shader::maps_for(const Frame& frame) {
+std::shared_ptr<const EnvironmentMaps> Shader::maps_for(const Frame& frame, const MaterialsSource& materials) {
     if (!frame.environment) {
         return nullptr;
     }
-    if (!maps_ || !maps_->serve(frame)) {
-        maps_ = std::make_shared<const EnvironmentMaps>(*device_, frame, prefilter_);
+    if (!maps_ || !maps_->serve(*frame.environment, materials.maps)) {
+        maps_.reset(); // one set at a time
+        maps_ = std::make_shared<const EnvironmentMaps>(*device_, *frame.environment, materials.maps, prefilter_);
     }
     return maps_;
 }
@@ -295,11 +296,12 @@ std::size_t Shader::band_pixels(const Frame& frame, std::size_t outputs) const {
 
 ShadedImage Shader::shade_in_bands(Frame& frame, std::size_t band) {
     const auto start = Clock::now();
-    Program program = program_for(frame);
+    const MaterialsSource materials = materials_source(frame);
+    Program program = program_for(frame, materials);
     ShadedImage image;
     image.plane_names = output_plane_names(frame, options_.aovs);
     image.planes = PlaneSlab(frame.planes.width(), frame.planes.height(), static_cast<int>(image.plane_names.size()));
-    Constants constants(*device_, frame, maps_for(frame));
+    Constants constants(*device_, frame, maps_for(frame, materials));
     const auto inputs = static_cast<std::size_t>(frame.planes.count());
     const std::size_t outputs = image.plane_names.size();
     Buffer planes(*device_, inputs * band * sizeof(float), Access::read);

@@ -84,6 +84,7 @@ class PreparedFrame {
 };
 
 class EnvironmentMaps;
+struct MaterialsSource;
 
 /// Builds one program per distinct set of materials, planes, light types, outputs and lanes, and keeps it; frames with
 /// the same ones reuse it. Constants of materials are baked in; lights and the camera are run-time constants.
@@ -111,8 +112,8 @@ class Shader {
   private:
     /// The environment's maps on the device, made anew where those at hand are of another one; null without
     /// environment.
-    [[nodiscard]] std::shared_ptr<const EnvironmentMaps> maps_for(const Frame& frame);
-    [[nodiscard]] const Program& program_for(const Frame& frame);
+    [[nodiscard]] std::shared_ptr<const EnvironmentMaps> maps_for(const Frame& frame, const MaterialsSource& materials);
+    [[nodiscard]] const Program& program_for(const Frame& frame, const MaterialsSource& materials);
     /// Pixels of one launch: all of them, or as many as the device and --max-mem can hold.
     [[nodiscard]] std::size_t band_pixels(const Frame& frame, std::size_t outputs) const;
     [[nodiscard]] ShadedImage shade_in_bands(Frame& frame, std::size_t band);

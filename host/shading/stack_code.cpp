@@ -28,7 +28,7 @@ bool all_positive(const Value& value) {
 }
 
 Value amplitude_value(CodeBlock& block, const std::string& name, const Value& f0) {
-    return f0.known ? Value::of(amplitude_of(f0.number)) : block.name(name, call("square_root", {f0}));
+    return f0.known ? Value::of(amplitude_of(f0.number)) : block.name(name, call("amplitude_of", {f0}));
 }
 
 Value medium_value(CodeBlock& block, const std::string& name, const Value& amplitude, const Value& above) {
