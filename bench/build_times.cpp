@@ -27,7 +27,7 @@ double first_launch_ms(Device& device, Frame& frame, const SourceSet& sources, c
 BuildTimes measure_build(Device& device, const BenchScene& scene, const std::filesystem::path& kernel_dir, int lanes,
                          const std::optional<BoundEnvironment>& environment) {
     const std::string mark = new_mark();
-    const TemporaryFolder folder(mark);
+    const BuildFolder folder(mark);
     Frame frame = make_bench_frame(64, 64, 1);
     apply_scene(frame, scene, environment);
     const SourceSet sources = marked_sources(kernel_dir, {"shade.cl"}, mark);

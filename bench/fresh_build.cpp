@@ -10,7 +10,7 @@
 
 namespace clshade {
 
-TemporaryFolder::TemporaryFolder(const std::string& name) : path_(std::filesystem::temp_directory_path() / name) {
+BuildFolder::BuildFolder(const std::string& name) : path_(std::filesystem::temp_directory_path() / name) {
     std::error_code error;
     std::filesystem::create_directories(path_, error);
     if (error) {
@@ -19,7 +19,7 @@ TemporaryFolder::TemporaryFolder(const std::string& name) : path_(std::filesyste
     }
 }
 
-TemporaryFolder::~TemporaryFolder() {
+BuildFolder::~BuildFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
 }

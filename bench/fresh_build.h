@@ -10,15 +10,15 @@
 namespace clshade {
 
 /// A folder of our own, gone with its content at the end.
-class TemporaryFolder {
+class BuildFolder {
   public:
     /// Throws RuntimeFailure.
-    explicit TemporaryFolder(const std::string& name);
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    TemporaryFolder(TemporaryFolder&&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+    explicit BuildFolder(const std::string& name);
+    ~BuildFolder();
+    BuildFolder(const BuildFolder&) = delete;
+    BuildFolder& operator=(const BuildFolder&) = delete;
+    BuildFolder(BuildFolder&&) = delete;
+    BuildFolder& operator=(BuildFolder&&) = delete;
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:

@@ -139,7 +139,7 @@ class Filtering {
         return all;
     }
 
-    TemporaryFolder folder_;
+    BuildFolder folder_;
     ProgramCache cache_;
     std::shared_ptr<LatLong> image_;
     std::optional<LatLong> other_;
