@@ -123,7 +123,7 @@ void check_shape(const std::string& file, const OIIO::ImageSpec& spec) {
                                "with `exrenvmap -l -w {} face%.exr LATLONG.exr`",
                                size, file, face, face, 4 * face));
     }
-    fail(file, fmt::format("is {}; a lat-long picture is exactly twice as wide as high", size));
+    fail(file, fmt::format("is {}; a lat-long picture is exactly twice as wide as high; give another", size));
 }
 
 /// A part of the picture alone, which happens to be twice as wide as high.
@@ -195,7 +195,7 @@ int halvings_of(const std::string& file, const OIIO::ImageSpec& spec, std::uint6
     int halvings = 0;
     int height = spec.height;
     while (most > 0 && bytes(height) > most) {
-        const char* obstacle = whole                                 ? ""
+        const char* obstacle = whole                                 ? ", all of which the background shows"
                                : height % 2 != 0                     ? " and cannot be halved (an odd number of rows)"
                                : height / 2 < smallest_halved_height ? " and are not halved below 1024 rows"
                                                                      : nullptr;

@@ -12,6 +12,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -32,16 +34,24 @@ constexpr const char* key_name = "clshade/environment";
 constexpr const char* key_hash = "clshade/environment_hash";
 constexpr const char* key_mean = "clshade/mean_radiance";
 constexpr const char* key_up = "clshade/up";
-constexpr const char* key_sh = "clshade/sh"; ///< of sh.exr: 27 numbers, all digits
+constexpr const char* key_axes = "clshade/axes";
+constexpr const char* key_basis = "clshade/sh_basis";
+constexpr const char* key_scaling = "clshade/scaling";
+constexpr const char* key_layout = "clshade/layout";
+constexpr const char* key_lobe = "clshade/lobe"; ///< of octahedral maps
+constexpr const char* key_sh = "clshade/sh";     ///< of sh.exr: 27 numbers, all digits
 /// Of layout and attributes; files of another version are refused.
 constexpr std::string_view version = "1";
 constexpr std::string_view again = "run `clshade prefilter` again";
 
 constexpr int ambient_width = ambient_cosines + 1;
 constexpr int ambient_height = ambient_exponents + 1;
-const std::string irradiance_file = "irradiance.exr";
-const std::string sh_file = "sh.exr";
-const std::string ambient_file = "ambient_brdf.exr";
+constexpr const char* irradiance_file = "irradiance.exr";
+constexpr const char* sh_file = "sh.exr";
+constexpr const char* ambient_file = "ambient_brdf.exr";
+constexpr std::array<const char*, 3> rgb_channels{"R", "G", "B"};
+constexpr std::array<const char*, 4> ambient_channels{"exact.scale", "exact.bias", "linear.scale", "linear.bias"};
+using ChannelNames = std::span<const char* const>;
 
 std::string level_file(int level) {
     return fmt::format("radiance_n{:04.0f}.exr", level_shininess(level));
@@ -65,15 +75,15 @@ struct Map {
     OutputImage image;
 };
 
-Map make_map(int width, int height, const std::vector<std::string>& channels) {
+Map make_map(int width, int height, int channels) {
     Map map;
-    map.planes = PlaneSlab(width, height, static_cast<int>(channels.size()));
+    map.planes = PlaneSlab(width, height, channels);
     map.image.data_window = {0, 0, width - 1, height - 1};
     map.image.display_window = map.image.data_window;
     return map;
 }
 
-void write_map(const fs::path& file, Map& map, const std::vector<std::string>& channels) {
+void write_map(const fs::path& file, Map& map, ChannelNames channels) {
     for (std::size_t i = 0; i < channels.size(); ++i) {
         map.image.channels.push_back({channels[i], &map.planes, static_cast<int>(i), true});
     }
@@ -81,9 +91,6 @@ void write_map(const fs::path& file, Map& map, const std::vector<std::string>& c
     settings.half = false;
     write_exr(file, map.image, settings);
 }
-
-const std::vector<std::string> rgb_channels{"R", "G", "B"};
-const std::vector<std::string> ambient_channels{"exact.scale", "exact.bias", "linear.scale", "linear.bias"};
 
 std::string numbers_of(std::span<const glm::dvec3> values) {
     std::string text;
@@ -93,6 +100,20 @@ std::string numbers_of(std::span<const glm::dvec3> values) {
     return text;
 }
 
+constexpr const char* axes_text =
+    "right-handed, +z towards row 0 of the lat-long picture, u = 0.5 - atan2(y, x)/(2 pi), "
+    "v = acos(z)/pi; neither turned nor scaled";
+constexpr const char* basis_text =
+    "index l(l+1)+m: 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2; L_lm = sum of L Y_lm dw; no "
+    "Condon-Shortley sign; radiance, not E/pi";
+constexpr const char* irradiance_lobe = "max(0, c)/pi, c the cosine of the angle to the direction of the vertex";
+
+std::string lobe_text(int level) {
+    return fmt::format(
+        "(n+2)/(8 pi) ((1+c)/2)^(n/2), n = {:g}, c the cosine of the angle to the direction of the vertex",
+        level_shininess(level));
+}
+
 std::map<std::string, std::string> common_attributes(const FilteredSet& set) {
     return {
         {key_version, std::string(version)},
@@ -100,10 +121,8 @@ std::map<std::string, std::string> common_attributes(const FilteredSet& set) {
         {key_hash, set.hash},
         {key_mean, numbers_of(std::span(&set.mean, 1))},
         {key_up, set.up ? std::string(name_of(*set.up)) : "unknown"},
-        {"clshade/axes", "right-handed, +z towards row 0 of the lat-long picture, u = 0.5 - atan2(y, x)/(2 pi), v = "
-                         "acos(z)/pi; neither turned nor scaled"},
-        {"clshade/sh_basis", "index l(l+1)+m: 1, y, z, x, xy, yz, 3z^2-1, xz, x^2-y^2; L_lm = sum of L Y_lm dw; no "
-                             "Condon-Shortley sign; radiance, not E/pi"},
+        {key_axes, axes_text},
+        {key_basis, basis_text},
     };
 }
 
@@ -116,7 +135,7 @@ std::string layout_text(int cells) {
 
 void write_octahedral(const fs::path& file, const std::vector<float>& values, int cells,
                       std::map<std::string, std::string> attributes) {
-    Map map = make_map(cells + 1, cells + 1, rgb_channels);
+    Map map = make_map(cells + 1, cells + 1, static_cast<int>(rgb_channels.size()));
     const float* value = values.data();
     for (int y = 0; y <= cells; ++y) {
         for (int x = 0; x <= cells; ++x) {
@@ -126,42 +145,40 @@ void write_octahedral(const fs::path& file, const std::vector<float>& values, in
         }
     }
     map.image.attributes = std::move(attributes);
-    map.image.attributes["clshade/layout"] = layout_text(cells);
+    map.image.attributes[key_layout] = layout_text(cells);
     write_map(file, map, rgb_channels);
 }
 
 void write_levels(const fs::path& folder, const FilteredSet& set) {
     for (int level = 0; level < radiance_levels; ++level) {
         auto attributes = common_attributes(set);
-        attributes["clshade/scaling"] = "radiance";
-        attributes["clshade/lobe"] = fmt::format("(n+2)/(8 pi) ((1+c)/2)^(n/2), n = {:g}, c the cosine of the angle to "
-                                                 "the direction of the vertex",
-                                                 level_shininess(level));
+        attributes[key_scaling] = "radiance";
+        attributes[key_lobe] = lobe_text(level);
         write_octahedral(folder / level_file(level), set.radiance[static_cast<std::size_t>(level)], level_cells(level),
                          std::move(attributes));
     }
     auto attributes = common_attributes(set);
-    attributes["clshade/scaling"] = "E/pi";
-    attributes["clshade/lobe"] = "max(0, c)/pi, c the cosine of the angle to the direction of the vertex";
+    attributes[key_scaling] = "E/pi";
+    attributes[key_lobe] = irradiance_lobe;
     write_octahedral(folder / irradiance_file, set.irradiance, irradiance_cells, std::move(attributes));
 }
 
 void write_sh(const fs::path& file, const FilteredSet& set) {
-    Map map = make_map(static_cast<int>(set.sh.size()), 1, rgb_channels);
+    Map map = make_map(static_cast<int>(set.sh.size()), 1, static_cast<int>(rgb_channels.size()));
     for (int i = 0; i < static_cast<int>(set.sh.size()); ++i) {
         for (int c = 0; c < 3; ++c) {
             map.planes.at(c, i, 0) = static_cast<float>(set.sh[static_cast<std::size_t>(i)][c]);
         }
     }
     map.image.attributes = common_attributes(set);
-    map.image.attributes["clshade/layout"] = "one texel a coefficient, in the order of clshade/sh_basis";
-    map.image.attributes["clshade/scaling"] = "radiance";
+    map.image.attributes[key_layout] = "one texel a coefficient, in the order of clshade/sh_basis";
+    map.image.attributes[key_scaling] = "radiance";
     map.image.attributes[key_sh] = numbers_of(set.sh);
     write_map(file, map, rgb_channels);
 }
 
 void write_ambient(const fs::path& file, const FilteredSet& set, const AmbientTables& ambient) {
-    Map map = make_map(ambient_width, ambient_height, ambient_channels);
+    Map map = make_map(ambient_width, ambient_height, static_cast<int>(ambient_channels.size()));
     std::size_t next = 0;
     for (int y = 0; y < ambient_height; ++y) {
         for (int x = 0; x < ambient_width; ++x, next += 2) {
@@ -172,9 +189,9 @@ void write_ambient(const fs::path& file, const FilteredSet& set, const AmbientTa
         }
     }
     map.image.attributes = common_attributes(set);
-    map.image.attributes["clshade/layout"] = fmt::format("vertex (i, j): N.E = max(i/{}, 1e-4), n = 2^({:g} j/{}) - 1",
-                                                         ambient_cosines, ambient_octaves, ambient_exponents);
-    map.image.attributes["clshade/scaling"] =
+    map.image.attributes[key_layout] = fmt::format("vertex (i, j): N.E = max(i/{}, 1e-4), n = 2^({:g} j/{}) - 1",
+                                                   ambient_cosines, ambient_octaves, ambient_exponents);
+    map.image.attributes[key_scaling] =
         "specular = (F0 scale + bias) x radiance; exact and linear: the normaliser of the lobe; the same for every "
         "environment";
     write_map(file, map, ambient_channels);
@@ -253,18 +270,25 @@ struct MapFile {
         }
         return found->second;
     }
+    void require(const char* key, std::string_view wanted) const {
+        if (const std::string& found = text(key); found != wanted) {
+            fail(file, fmt::format("the attribute {} says '{}' instead of '{}'", key, found, wanted));
+        }
+    }
 };
 
-MapFile open_map(const fs::path& file, int width, int height, const std::vector<std::string>& channels) {
+MapFile open_map(const fs::path& file, int width, int height, ChannelNames channels) {
     MapFile map{file, read_layout(file)};
     if (const std::string& written = map.text(key_version); written != version) {
         fail(file, fmt::format("has maps of version {}, this clshade reads version {}", written, version));
     }
+    map.require(key_axes, axes_text);
+    map.require(key_basis, basis_text);
     if (map.layout.parts.size() != 1 || map.layout.parts[0].data_window != Window{0, 0, width - 1, height - 1}) {
         const Window& window = map.layout.parts[0].data_window;
         fail(file, fmt::format("has {}x{} vertices instead of {}x{}", window.width(), window.height(), width, height));
     }
-    for (const std::string& name : channels) {
+    for (const char* name : channels) {
         const auto found = std::find_if(map.layout.channels.begin(), map.layout.channels.end(),
                                         [&](const ChannelInfo& channel) { return channel.name == name; });
         if (found == map.layout.channels.end() || found->type != SampleType::float32) {
@@ -297,9 +321,9 @@ void parse_numbers(const MapFile& map, const char* key, std::span<glm::dvec3> va
 }
 
 /// The channels of a map, interleaved.
-std::vector<float> read_values(const MapFile& map, const std::vector<std::string>& channels) {
+std::vector<float> read_values(const MapFile& map, ChannelNames channels) {
     FramePlan plan;
-    for (const std::string& name : channels) {
+    for (const char* name : channels) {
         const auto found = std::find_if(map.layout.channels.begin(), map.layout.channels.end(),
                                         [&](const ChannelInfo& channel) { return channel.name == name; });
         plan.channels.push_back(static_cast<int>(found - map.layout.channels.begin()));
@@ -335,8 +359,7 @@ class SetReader {
   public:
     explicit SetReader(const fs::path& folder) : folder_(folder) {}
 
-    [[nodiscard]] MapFile open(const std::string& name, int width, int height,
-                               const std::vector<std::string>& channels) {
+    [[nodiscard]] MapFile open(const std::string& name, int width, int height, ChannelNames channels) {
         MapFile map = open_map(folder_ / name, width, height, channels);
         if (first_.empty()) {
             first_ = name;
@@ -347,8 +370,9 @@ class SetReader {
         }
         return map;
     }
-    [[nodiscard]] std::vector<float> octahedral(const std::string& name, int cells) {
+    [[nodiscard]] std::vector<float> octahedral(const std::string& name, int cells, const std::string& lobe) {
         const MapFile map = open(name, cells + 1, cells + 1, rgb_channels);
+        map.require(key_lobe, lobe);
         std::vector<float> values = read_values(map, rgb_channels);
         check_light(map, values);
         return values;
@@ -404,7 +428,7 @@ void write_filtered_set(const fs::path& set, const FilteredSet& maps, const Ambi
     check_tables(ambient);
     const fs::path target = named(set);
     check_target(target);
-    TemporaryFolder folder(target, file_names());
+    StagedFolder folder(target, file_names());
     try {
         write_levels(folder.path(), maps);
         write_sh(folder.path() / sh_file, maps);
@@ -426,9 +450,10 @@ FilteredSet read_filtered_set(const fs::path& set) {
     SetReader reader(set);
     read_sh(reader, maps);
     for (int level = 0; level < radiance_levels; ++level) {
-        maps.radiance[static_cast<std::size_t>(level)] = reader.octahedral(level_file(level), level_cells(level));
+        maps.radiance[static_cast<std::size_t>(level)] =
+            reader.octahedral(level_file(level), level_cells(level), lobe_text(level));
     }
-    maps.irradiance = reader.octahedral(irradiance_file, irradiance_cells);
+    maps.irradiance = reader.octahedral(irradiance_file, irradiance_cells, irradiance_lobe);
     // Made anew for every device, so not taken from here; but a set is whole or it is none.
     const MapFile ambient = reader.open(ambient_file, ambient_width, ambient_height, ambient_channels);
     check_light(ambient, read_values(ambient, ambient_channels));

@@ -201,7 +201,7 @@ void TemporaryFile::commit() {
     slot_ = -1;
 }
 
-TemporaryFolder::TemporaryFolder(const std::filesystem::path& target, std::span<const std::string> names)
+StagedFolder::StagedFolder(const std::filesystem::path& target, std::span<const std::string> names)
     : target_(target), final_(followed(target)) {
     int error = EEXIST;
     for (int attempt = 0; attempt < 100 && error == EEXIST; ++attempt) {
@@ -228,11 +228,11 @@ TemporaryFolder::TemporaryFolder(const std::filesystem::path& target, std::span<
     }
 }
 
-TemporaryFolder::~TemporaryFolder() {
+StagedFolder::~StagedFolder() {
     remove();
 }
 
-void TemporaryFolder::remove() noexcept {
+void StagedFolder::remove() noexcept {
     if (slots_.empty()) {
         return;
     }
@@ -246,11 +246,11 @@ void TemporaryFolder::remove() noexcept {
     slots_.clear();
 }
 
-void TemporaryFolder::fail(int error) const {
+void StagedFolder::fail(int error) const {
     fail_writing(target_, error);
 }
 
-void TemporaryFolder::commit() {
+void StagedFolder::commit() {
     // Replaces nothing, or an empty folder.
     if (::rename(path_.c_str(), final_.c_str()) == 0) {
         for (const int slot : slots_) {

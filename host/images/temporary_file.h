@@ -51,14 +51,14 @@ class TemporaryFile {
 
 /// A folder ".<name>.<pid>-<n>.tmp" beside the target, for a set of files of the given names. Removed with them by the
 /// destructor, or by remove_temporaries() on a signal, unless committed. Failures as above.
-class TemporaryFolder {
+class StagedFolder {
   public:
-    TemporaryFolder(const std::filesystem::path& target, std::span<const std::string> names);
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    TemporaryFolder(TemporaryFolder&&) = delete;
-    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+    StagedFolder(const std::filesystem::path& target, std::span<const std::string> names);
+    ~StagedFolder();
+    StagedFolder(const StagedFolder&) = delete;
+    StagedFolder& operator=(const StagedFolder&) = delete;
+    StagedFolder(StagedFolder&&) = delete;
+    StagedFolder& operator=(StagedFolder&&) = delete;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
