@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <string_view>
 
 namespace clshade::cli {
@@ -70,6 +71,40 @@ std::vector<Entry> stack_keys() {
     return entries;
 }
 
+std::vector<Entry> keys_of_environment() {
+    std::vector<Entry> entries;
+    for (const ParameterInfo& key : environment_keys()) {
+        entries.push_back({key.name, key.range});
+    }
+    return entries;
+}
+
+std::string parameter_text(std::span<const ParameterInfo> parameters) {
+    constexpr std::size_t indent = 4;
+    std::string text;
+    for (const ParameterInfo& parameter : parameters) {
+        text += fmt::format("  {}\n", parameter.name);
+        text += labelled("unit", parameter.unit, indent) + labelled("range", parameter.range, indent) +
+                labelled("default", parameter.fallback, indent) + labelled("source", parameter.source, indent);
+    }
+    return text;
+}
+
+nlohmann::json json_of(std::span<const ParameterInfo> parameters) {
+    nlohmann::json all = nlohmann::json::array();
+    for (const ParameterInfo& parameter : parameters) {
+        all.push_back({{"name", parameter.name},
+                       {"unit", parameter.unit},
+                       {"range", parameter.range},
+                       {"default", parameter.fallback},
+                       {"source", parameter.source}});
+    }
+    return all;
+}
+
+constexpr std::string_view environment_summary =
+    "Light from all around a scene: a lat-long picture, a set that `clshade prefilter` wrote, or the built-in studio.";
+
 std::vector<Entry> presets() {
     std::vector<Entry> entries;
     for (const PresetInfo& preset : preset_catalog()) {
@@ -94,6 +129,8 @@ std::string catalog_text() {
     return section("Lobes", R"(specular = { model = "NAME", ... } in any layer)", models_of("specular")) +
            section("Diffuse models", R"(diffuse = { model = "NAME", ... } in the base)", models_of("diffuse")) +
            section("Stacks", "keys of a material; more under `clshade models layers`", stack_keys()) +
+           section("Environment", "keys of [environment]; more under `clshade models environment`",
+                   keys_of_environment()) +
            section("Presets", R"(preset = "NAME" in a material; keys written beside it override)", presets()) +
            "The model \"none\" leaves a lobe or the diffuse part out.\n"
            "`clshade models NAME` shows parameters, units, ranges, defaults and sources; of a preset its TOML.\n";
@@ -101,15 +138,15 @@ std::string catalog_text() {
 
 std::string page_of(const ModelInfo& model) {
     std::string page = fmt::format("{} ({})\n\n", model.name, model.kind);
-    page += labelled("what", model.summary) + labelled("when", model.advice) + labelled("source", model.source);
+    page += labelled("what", model.summary) + labelled("when", model.advice) + labelled("ambient", model.environment) +
+            labelled("source", model.source);
     page += model.kind == "stack" ? "\nKeys of a material:\n" : "\nParameters:\n";
-    for (const ParameterInfo& parameter : model.parameters) {
-        constexpr std::size_t indent = 4;
-        page += fmt::format("  {}\n", parameter.name);
-        page += labelled("unit", parameter.unit, indent) + labelled("range", parameter.range, indent) +
-                labelled("default", parameter.fallback, indent) + labelled("source", parameter.source, indent);
-    }
-    return page;
+    return page + parameter_text(model.parameters);
+}
+
+std::string environment_page() {
+    return fmt::format("{} (scene)\n\n{}\nKeys of [environment]:\n{}", environment_name,
+                       labelled("what", environment_summary), parameter_text(environment_keys()));
 }
 
 std::string page_of(const PresetInfo& preset) {
@@ -123,16 +160,21 @@ std::string page_of(const PresetInfo& preset) {
 }
 
 nlohmann::json json_of(const ModelInfo& model) {
-    nlohmann::json parameters = nlohmann::json::array();
-    for (const ParameterInfo& parameter : model.parameters) {
-        parameters.push_back({{"name", parameter.name},
-                              {"unit", parameter.unit},
-                              {"range", parameter.range},
-                              {"default", parameter.fallback},
-                              {"source", parameter.source}});
-    }
-    return {{"model", model.name},    {"kind", model.kind},     {"summary", model.summary},
-            {"source", model.source}, {"advice", model.advice}, {"parameters", parameters}};
+    return {{"model", model.name},
+            {"kind", model.kind},
+            {"summary", model.summary},
+            {"source", model.source},
+            {"advice", model.advice},
+            {"environment", model.environment},
+            {"parameters", json_of(model.parameters)}};
+}
+
+nlohmann::json environment_json() {
+    return {{"model", environment_name},
+            {"kind", "scene"},
+            {"summary", environment_summary},
+            {"source", "models.md section 6"},
+            {"parameters", json_of(environment_keys())}};
 }
 
 nlohmann::json json_of(const PresetInfo& preset) {

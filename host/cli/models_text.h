@@ -6,11 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace clshade::cli {
 
-/// Lobes, diffuse models, keys of stacks and presets, one line each.
+/// What `models` calls the page of environments.
+inline constexpr std::string_view environment_name = "environment";
+
+/// Lobes, diffuse models, keys of stacks and of environments, and presets, one line each.
 [[nodiscard]] std::string catalog_text();
+/// The keys of a scene's [environment].
+[[nodiscard]] std::string environment_page();
 /// A model with every parameter: unit, range, default, source.
 [[nodiscard]] std::string page_of(const ModelInfo& model);
 /// A preset with its TOML and where its picture lies.
@@ -18,5 +24,6 @@ namespace clshade::cli {
 
 [[nodiscard]] nlohmann::json json_of(const ModelInfo& model);
 [[nodiscard]] nlohmann::json json_of(const PresetInfo& preset);
+[[nodiscard]] nlohmann::json environment_json();
 
 } // namespace clshade::cli

@@ -50,7 +50,9 @@ void add_common_options(CLI::App& app, CommonOptions& options, CommonGroup shown
            [o](const std::string& text) {
                o->max_memory = static_cast<std::uint64_t>(parse_whole("--max-mem", text, 1, 1 << 30)) << 20;
            },
-           "most device memory for planes, in MiB; larger frames are shaded in bands. Default: what the device has")
+           "most memory for planes on the device, and for an environment's picture, in MiB; larger frames are shaded "
+           "in "
+           "bands, larger pictures halved. Default: what the device has")
         ->group(running)
         ->type_name("MB");
     app.add_option_function<std::string>(
@@ -90,8 +92,10 @@ void add_common_options(CLI::App& app, CommonOptions& options, CommonGroup shown
 }
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-    app.add_option("--scene", options.file,
-                   "scene file (TOML). Default: materials from the file's own roles, three lights from the camera")
+    app.add_option(
+           "--scene", options.file,
+           "scene file (TOML). Default: materials from the file's own roles, a key light and the built-in studio, "
+           "both turned with the camera")
         ->type_name("S.toml");
     app.add_option("--set", options.overrides,
                    "override one key of the scene, e.g. material.default.specular.shininess=32; may be repeated")

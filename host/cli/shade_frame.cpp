@@ -96,6 +96,7 @@ FrameOutcome shade_frame(const FrameJob& job, const ChosenScene& scene, RunEnvir
     const EnvironmentInput* surroundings = environment.read(outcome.stages);
     if (settings.dry_run) {
         outcome.plan = plan_text(planned, job, scene, surroundings, session.info());
+        outcome.warnings = environment.take_warnings();
         return outcome;
     }
     watch.lap();

@@ -16,15 +16,21 @@ constexpr std::string_view shade_details =
     R"(Sequences: # (four digits), #### or %04d in INPUT and OUTPUT stands for the frame number. Without --frames every
 frame found on disk is shaded. A frame that fails does not stop the others.
 
-Without --scene: albedo role (else 0.5), f0 role (else 0.04), roughness or shininess role (else shininess 64), and
-three lights over the camera's shoulders. `clshade inspect INPUT` tells which channels play which role.
+Without --scene: albedo role (else 0.5), f0 role (else 0.04), roughness or shininess role (else shininess 64), a key
+light over the camera's left shoulder and the built-in studio around. `clshade inspect INPUT` tells which channels play
+which role.
+
+[environment] of a scene lights it from all around: image = "FILE" is a lat-long .hdr or .exr, or a folder that
+`clshade prefilter` wrote; without image it is the built-in studio. It is pre-filtered once, which takes about a second,
+and kept on disk for later runs. background = true under [output] shows it behind the objects, where alpha becomes 1.
+`clshade models environment` lists the keys.
 
 Materials are stacks of one to eight layers and claim pixels by `ids` (material_id plane) or `names` (Cryptomatte); the
 rest goes to material.default. `clshade models` lists lobes, diffuse models, stack keys and presets. --model takes any of
 the models by itself; one that needs keys of its own (blinn_phong_anisotropic, blinn_phong_spectral) gets them by --set.
 
-OUTPUT.exr holds R, G, B (radiance), A (coverage) and what --aov and --keep ask for; OUTPUT.png is a preview for the
-screen. An output is written under a temporary name and renamed when it is complete.
+OUTPUT.exr holds R, G, B (radiance), A (coverage) and what --aov and --keep ask for; the AOVs of all lights and of the
+environment add up to what is reflected. OUTPUT.png is a preview for the screen. An output is written under a temporary name and renamed when it is complete.
 
 --dump-kernel: of a sequence the first frame's program lies in DIR, further ones with other planes or materials in
 DIR/2, DIR/3, ...; start reading at shade.cl and materials.cl.
@@ -36,6 +42,8 @@ Examples:
   clshade shade in.exr -o out.exr --model blinn_phong_spectral --set material.default.specular.metal=copper
   clshade shade in.exr -o out.exr --model blinn_phong_anisotropic --set material.default.specular.shininess_u=20 \
       --set material.default.specular.shininess_v=400
+  clshade shade in.exr -o out.exr --set environment.image=studio.hdr --set environment.rotation_degrees=90
+  clshade shade in.exr -o out.exr --scene look.toml --aov diffuse,specular,environment
   clshade shade in.exr -o out.exr --scene look.toml --dump-kernel kernel
   clshade shade in.####.exr -o out.####.exr --scene look.toml --frames 1-100x2 -u
   clshade shade in.#.exr -o out.#.exr --chunk 2/8 --progress openjd --json report.json)";
@@ -43,19 +51,27 @@ Examples:
 constexpr std::string_view check_details =
     R"(With INPUT: shades it on the device and with the scalar double-precision reference and compares every pixel, grouped
 by what the material is made of. Without INPUT: a seeded random G-buffer for every lobe with every diffuse model, single
-layers with exact Fresnel, stacks of two to eight layers, random stacks (--seed) and every preset.
+layers with exact Fresnel, stacks of two to eight layers, random stacks (--seed) and every preset; then the same in an
+environment, which the reference filters by itself, with and without lights.
 
 A row is called after its stack: LOBE.DIFFUSE, or layersN.LOBES.DIFFUSE.FRESNEL.ABSORPTION with the lobes from the top
-down; @NAME tells a preset or a random stack. Long names are shortened in the table, whole in --json.
+down; @NAME tells a preset, a random stack or an environment with what it does (environment.SOURCE...). Long names are
+shortened in the table, whole in --json.
 
 A value agrees when |device - reference| <= REL * |reference| + ABS. A row passes when at least PERCENTILE percent of
 its pixels agree, the hard limits of its models hold, and both sides count the same pixels as non-finite and as without
 a tangent. Ends with 3 when any row fails.
 
+Device and reference share the approximations that real-time light from an environment rests on: split sums, few bands
+of spherical harmonics, pre-integrated absorption. --ground-truth N tells what those cost: it integrates environment
+times BRDF by brute force at N pixels of INPUT (without INPUT: N for each of a set of materials in the built-in studio),
+prints the errors of the approximation and always ends with 0. --json has the table under `ground_truth`.
+
 Examples:
   clshade check
   clshade check in.exr --scene look.toml --dump difference.exr
-  clshade check --device 1 --lanes 8 --json check.json)";
+  clshade check --device 1 --lanes 8 --json check.json
+  clshade check in.exr --scene look.toml --ground-truth 200)";
 
 constexpr std::string_view bench_details =
     R"(All contestants run in turns in one process; ratios are taken inside each round and the median is printed, so that a
@@ -69,7 +85,8 @@ Examples:
 
 constexpr std::string_view inspect_details =
     R"(Works on any EXR that can be read, whether or not it can be shaded. Pixels are read only for the camera (position,
-depth, normal) and for the material ids.
+depth, normal) and for the material ids. Of the scene's environment it tells size, mean radiance and what was wrong with
+it.
 
 Examples:
   clshade inspect in.exr
@@ -90,7 +107,8 @@ Examples:
   clshade prefilter studio.hdr -o studio_set --runstats --json report.json)";
 
 constexpr std::string_view demo_details =
-    R"(Makes DIR/gbuffer.0001.exr ... (multi-layer EXR with camera), DIR/scene.toml, DIR/shaded.0001.exr and .png ...
+    R"(Makes DIR/gbuffer.0001.exr ... (multi-layer EXR with camera), DIR/studio.exr (an environment), DIR/scene.toml,
+DIR/shaded.0001.exr and .png ...
 
 Example:
   clshade demo && clshade inspect clshade-demo/gbuffer.0001.exr)";
@@ -121,8 +139,8 @@ constexpr std::array<Verb, 8> table{{
      declare_inspect},
     {"prefilter", "ENV -o SET [flags]", "environment picture to pre-filtered radiance, irradiance and SH maps",
      prefilter_details, declare_prefilter},
-    {"demo", "[DIR] [flags]", "writes a synthetic G-buffer sequence and a scene, then shades them", demo_details,
-     declare_demo},
+    {"demo", "[DIR] [flags]", "writes a synthetic G-buffer sequence, environment and scene, then shades them",
+     demo_details, declare_demo},
     {"devices", "[flags]", "lists the OpenCL devices that can run clshade", devices_details, declare_devices},
     {"models", "[NAME] [flags]", "lists the shading models and presets with parameters, ranges and sources",
      models_details, declare_models},

@@ -1,4 +1,5 @@
 #include "host/base/error.h"
+#include "host/cli/environment_input.h"
 #include "host/cli/frame_input.h"
 #include "host/cli/log_level.h"
 #include "host/cli/pixel_survey.h"
@@ -205,6 +206,31 @@ nlohmann::json json_of(const IdSurvey& ids) {
     return {{"pixels", pixels}, {"fractional", ids.fractional}, {"nonfinite", ids.nonfinite}};
 }
 
+std::string environment_text(const EnvironmentInput& environment) {
+    std::string text = fmt::format("environment: {}, {}\n", environment.name, environment.description());
+    for (const std::string& warning : environment.warnings) {
+        text += "  warning: " + warning + "\n";
+    }
+    return text;
+}
+
+nlohmann::json json_of(const EnvironmentInput& environment) {
+    const glm::dvec3 mean = environment.mean();
+    nlohmann::json result = {{"name", environment.name},
+                             {"hash", environment.hash},
+                             {"mean", {mean.r, mean.g, mean.b}},
+                             {"prefiltered", environment.image == nullptr},
+                             {"warnings", environment.warnings}};
+    if (environment.image != nullptr) {
+        result["width"] = environment.image->width;
+        result["height"] = environment.image->height;
+        result["negative"] = environment.image->negative;
+        result["nonfinite"] = environment.image->nonfinite;
+        result["halvings"] = environment.image->halvings;
+    }
+    return result;
+}
+
 // Prints a paragraph unless --quiet.
 void show(const InspectOptions& options, const std::string& text) {
     if (!options.common.quiet && !text.empty()) {
@@ -240,6 +266,11 @@ ExitCode inspect(const InspectOptions& options, JsonReport& report) {
             const IdSurvey ids = survey_ids(options.input, layout, roles, options.common.host_threads());
             show(options, ids_text(ids));
             result["material_ids"] = json_of(ids);
+        }
+        if (scene.scene.environment) {
+            const EnvironmentInput environment = read_environment(scene.scene, options.common.max_memory);
+            show(options, environment_text(environment));
+            result["environment"] = json_of(environment);
         }
     } catch (const RuntimeFailure& error) {
         report.add(result, "error", error.what());

@@ -28,7 +28,13 @@ struct ModelsOptions {
 };
 
 [[noreturn]] void refuse_name(const std::string& name) {
-    std::vector<std::string_view> names;
+    std::vector<std::string_view> names{environment_name};
+    for (const ParameterInfo& key : environment_keys()) {
+        if (key.name == name) {
+            throw UsageError(fmt::format("models: '{}' is a key of an environment; see `clshade models {}`", name,
+                                         environment_name));
+        }
+    }
     for (const ModelInfo& model : model_catalog()) {
         const auto has_name = [&](const ParameterInfo& parameter) { return parameter.name == name; };
         if (std::any_of(model.parameters.begin(), model.parameters.end(), has_name)) {
@@ -78,6 +84,10 @@ ExitCode show(const ModelsOptions& options, JsonReport& report) {
     };
     for (const ModelInfo& model : model_catalog()) {
         add(model);
+    }
+    if (options.name.empty() || options.name == environment_name) {
+        report.add(environment_json());
+        pages += environment_page();
     }
     for (const PresetInfo& preset : preset_catalog()) {
         add(preset);

@@ -11,7 +11,7 @@ version = 1
 image = "studio.exr"                # lat-long: soft boxes in a dark room; any .hdr or .exr will do
 up = "z"
 rotation_degrees = -90.0            # the middle of the picture stands behind the camera
-intensity = 0.8
+intensity = 0.7
 
 [output]
 background = true                   # the room itself where there is no object
@@ -20,7 +20,7 @@ background = true                   # the room itself where there is no object
 name = "key"                        # over the left shoulder, warm, where the studio has its large soft box
 type = "distant"
 direction = [0.55, 0.62, -0.75]     # the way the light travels
-irradiance = 1.0
+irradiance = 0.8
 color = [1.0, 0.95, 0.87]
 
 [[light]]
@@ -28,7 +28,7 @@ name = "pool"                       # a spot on the middle of the stage
 type = "spot"
 position = [1.6, -3.6, 6.5]
 direction = [-0.22, 0.52, -0.90]
-intensity = 40.0                    # irradiance = intensity / distance^2
+intensity = 30.0                    # irradiance = intensity / distance^2
 color = [1.0, 0.90, 0.72]
 cone_angle_degrees = 26.0
 cone_softness = 0.55

@@ -50,7 +50,7 @@ TEST(Help, NamesEveryFlag) {
         {"shade",
          {"-o,", "--scene", "--frames", "-d ", "--compression", "--aov", "--keep", "--model", "--set", "-u,",
           "--no-clobber", "--skip-bad-frames", "--chunk", "-n,", "--view", "--dump-kernel"}},
-        {"check", {"--scene", "--rel", "--abs", "--percentile", "--dump", "--model", "--set"}},
+        {"check", {"--scene", "--rel", "--abs", "--percentile", "--dump", "--ground-truth", "--model", "--set"}},
         {"bench", {"--filter", "--size", "--compare", "--regress", "--tune"}},
         {"demo", {"--size", "--frames"}},
         {"models", {"--thumbnails"}},
@@ -64,8 +64,9 @@ TEST(Help, NamesEveryFlag) {
         }
     }
     const std::string shade = run_clshade({"help", "shade"}).out;
-    for (const char* word : {"auto | bar | plain | openjd | alf | none", "auto | 1 | 4 | 8 | 16", "cpu | gpu",
-                             "diffuse,specular,lights", "half | float", "####", "%04d", "1-100x2", "MiB"}) {
+    for (const char* word :
+         {"auto | bar | plain | openjd | alf | none", "auto | 1 | 4 | 8 | 16", "cpu | gpu",
+          "diffuse,specular,lights (one per light),environment", "half | float", "####", "%04d", "1-100x2", "MiB"}) {
         EXPECT_THAT(shade, HasSubstr(word));
     }
 }

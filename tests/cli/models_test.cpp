@@ -22,12 +22,14 @@ const std::vector<std::string> diffuses{"lambert",
                                         "oren_nayar_simplified_2",
                                         "oren_nayar_shininess"};
 const std::vector<std::string> stack_keys{"fresnel", "absorption_model", "absorption", "ids", "names", "preset"};
+const std::vector<std::string> environment_keys{"image",   "intensity", "up", "rotation_degrees",
+                                                "diffuse", "background"};
 const std::vector<std::string> presets{"skin", "car_paint", "lacquered_wood", "brushed_metal", "cloth", "gold"};
 
 TEST(Models, ListsLobesDiffuseModelsKeysAndPresets) {
     const Outcome list = run_clshade({"models"});
     EXPECT_EQ(list.exit_code, 0);
-    for (const auto& group : {lobes, diffuses, stack_keys, presets}) {
+    for (const auto& group : {lobes, diffuses, stack_keys, environment_keys, presets}) {
         for (const std::string& name : group) {
             EXPECT_THAT(list.out, HasSubstr("\n  " + name + " ")) << name;
         }
@@ -43,6 +45,7 @@ TEST(Models, DocumentsEveryParameter) {
                 EXPECT_THAT(page.out, HasSubstr(label)) << name;
             }
             EXPECT_THAT(page.out, AllOf(HasSubstr("\nsource "), HasSubstr("models.md section"))) << name;
+            EXPECT_THAT(page.out, HasSubstr("\nambient ")) << name << ": how an environment lights it";
         }
     }
     const std::string aniso = run_clshade({"models", "blinn_phong_anisotropic"}).out;
@@ -50,6 +53,10 @@ TEST(Models, DocumentsEveryParameter) {
     const std::string stack = run_clshade({"models", "layers"}).out;
     for (const std::string& key : stack_keys) {
         EXPECT_THAT(stack, HasSubstr("\n  " + key + "\n"));
+    }
+    const std::string environment = run_clshade({"models", "environment"}).out;
+    for (const std::string& key : environment_keys) {
+        EXPECT_THAT(environment, HasSubstr("\n  " + key + "\n"));
     }
 }
 
@@ -71,13 +78,14 @@ TEST(Models, KnowsWhereAParameterBelongs) {
     const Outcome run = run_clshade({"models", "absorption_model"});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_THAT(run.err, HasSubstr("`clshade models layers`"));
+    EXPECT_THAT(run_clshade({"models", "rotation_degrees"}).err, HasSubstr("`clshade models environment`"));
 }
 
 TEST(Models, ReportsAsJson) {
     const TemporaryFolder folder;
     ASSERT_EQ(run_clshade({"models", "-q", "--json", (folder / "m.json").string()}).exit_code, 0);
     const auto results = nlohmann::json::parse(bytes_of(folder / "m.json"))["results"];
-    EXPECT_EQ(results.size(), lobes.size() + diffuses.size() + 1 + presets.size());
+    EXPECT_EQ(results.size(), lobes.size() + diffuses.size() + 2 + presets.size()); // and `layers`, `environment`
     std::size_t pictures = 0;
     for (const auto& result : results) {
         EXPECT_EQ(result["status"], "ok");

@@ -95,7 +95,7 @@ TEST(Shade, SameBytesFromRunToRunAndForAnyThreadsAndMemory) {
         {}, {}, {"--threads", "1"}, {"--threads", "2"}, {"--max-mem", "1"}};
     std::string first;
     for (const auto& way : ways) {
-        std::vector<std::string> arguments{input, "-o", "out.exr", "--aov", "diffuse,specular,lights"};
+        std::vector<std::string> arguments{input, "-o", "out.exr", "--aov", "diffuse,specular,lights,environment"};
         arguments.insert(arguments.end(), way.begin(), way.end());
         ASSERT_EQ(shade_in(folder, arguments).exit_code, 0);
         const std::string bytes = bytes_of(folder / "out.exr");

@@ -51,12 +51,18 @@ TEST(Check, EveryModelOnARandomGBuffer) {
     }
     // 3 lobes times 8 diffuse models without none.none, 2 x 3 of the other lobes, 4 with exact Fresnel, 15 stacks, 8
     // random ones, 6 presets; each under a name of its own.
-    EXPECT_EQ(models.size(), 23U + 6U + 4U + 15U + 8U + 6U);
+    constexpr std::size_t under_lights = 23 + 6 + 4 + 15 + 8 + 6;
+    // In an environment: 3 x 4 lobes and one with constants, 7 diffuse models, 3 sources under a lobe and 3 x 6 ways of
+    // Oren-Nayar, 2 x (3 x 2 + 2) stacks and a deep one, 2 backgrounds, 6 random ones, 6 presets.
+    EXPECT_EQ(models.size(), under_lights + 13 + 7 + 3 + 18 + 17 + 2 + 6 + 6);
     for (const char* model :
          {"none.oren_nayar_full", "blinn_phong_anisotropic.lambert", "blinn_phong_spectral.none",
           "blinn_phong_exact.lambert.exact", "layers2.blinn_phong.lambert.constant.none",
           "layers2.blinn_phong.lambert.exact.original", "layers8.blinn_phong.lambert.exact.original",
-          "layers2.blinn_phong.oren_nayar.constant.approximated@skin", "blinn_phong_spectral.none@gold"}) {
+          "layers2.blinn_phong.oren_nayar.constant.approximated@skin", "blinn_phong_spectral.none@gold",
+          "blinn_phong_anisotropic.none@environment.sh2.alone", "none.oren_nayar@environment.irradiance_map.order1",
+          "layers2.blinn_phong.lambert.exact.original@environment.irradiance_map.exponential.none",
+          "blinn_phong.lambert@environment.irradiance_map.alone.background.aov"}) {
         EXPECT_TRUE(models.contains(model)) << model;
     }
     const Decoded dump = decode(folder / "d.exr");
@@ -179,8 +185,8 @@ TEST(Demo, MakesAndShadesItsOwnScene) {
     const TemporaryFolder folder;
     const Outcome run = run_in(folder, {"demo", "d", "--size", "96x54", "--frames", "2", "--json", "r.json"}, 300.0);
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    for (const char* name : {"gbuffer.0001.exr", "gbuffer.0002.exr", "scene.toml", "shaded.0001.exr", "shaded.0002.exr",
-                             "shaded.0001.png", "shaded.0002.png"}) {
+    for (const char* name : {"gbuffer.0001.exr", "gbuffer.0002.exr", "scene.toml", "studio.exr", "shaded.0001.exr",
+                             "shaded.0002.exr", "shaded.0001.png", "shaded.0002.png"}) {
         EXPECT_TRUE(std::filesystem::exists(folder / "d" / name)) << name;
     }
     EXPECT_THAT(run.out, AllOf(HasSubstr("kernel"), HasSubstr("GB/s"), HasSubstr("d/shaded.0001.exr")));
