@@ -7,6 +7,13 @@
 #define LANES 1
 #endif
 
+// Calls would pass structs of lanes through the stack; and PoCL's code generator misaligns it in some of them.
+#if defined(__clang__)
+#pragma clang diagnostic ignored "-Wkeyword-macro"
+#undef inline
+#define inline inline __attribute__((always_inline))
+#endif
+
 #if LANES == 1
 typedef float real;
 typedef int integer;

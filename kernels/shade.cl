@@ -35,18 +35,20 @@ __kernel void shade(__global const float* planes, ulong plane_stride, __global f
     const radiance sum = add_emission(lit, in, s);
 
     const rgb total = scale_rgb(sum.total, s.coverage);
-    const mask finite = is_finite_rgb(total);
-    const mask good = s.alive & finite;
+    mask overflown = s.alive & negated(is_finite_rgb(total));
+    mask good = s.alive & negated(overflown);
     rgb colour = choose_rgb(good, total, grey(splat(0.0f)));
     real alpha = choose(good, s.coverage, splat(0.0f));
 #if HAS_BACKGROUND
-    const mask open = (alpha < splat(1.0f)) & negated(s.nonfinite) & (good | negated(s.alive));
+    const mask open = (alpha < splat(1.0f)) & negated(s.nonfinite | overflown);
     if (any_lane(open)) {
         const rgb seen = behind(around, ray_of(first_pixel + pixel, frame));
         const rgb over = multiply_add_rgb(grey(1.0f - alpha), seen, colour);
         const mask shown = open & is_finite_rgb(over);
-        colour = choose_rgb(shown, over, colour);
-        alpha = choose(shown, splat(1.0f), alpha);
+        overflown |= open & negated(shown);
+        good &= negated(overflown);
+        colour = choose_rgb(shown, over, choose_rgb(overflown, grey(splat(0.0f)), colour));
+        alpha = choose(shown, splat(1.0f), choose(overflown, splat(0.0f), alpha));
     }
 #endif
     store_rgb(out, 0, colour);
@@ -61,7 +63,7 @@ __kernel void shade(__global const float* planes, ulong plane_stride, __global f
     store_rgb(out, OUTPUT_ENVIRONMENT, deliver(sum.environment, s, good));
 #endif
 
-    const mask nonfinite = s.nonfinite | (s.alive & negated(finite));
+    const mask nonfinite = s.nonfinite | overflown;
     const mask clamped = s.alive & sum.clamped;
     const mask fractional = s.alive & sum.fractional_id;
     const mask no_tangent = s.alive & sum.no_tangent;

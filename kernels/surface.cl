@@ -76,6 +76,13 @@ static inline vec3 affine(__constant const float* at, __constant const float* dx
 }
 #endif
 
+#if VIEW_HAS_RAYS
+// The way the pixel looks, of any length.
+static inline vec3 ray_of(ulong pixel, __constant const FrameConstants* frame) {
+    return affine(frame->direction, frame->direction_dx, frame->direction_dy, centre_of(pixel, frame));
+}
+#endif
+
 #if VIEW_HAS_RAYS && PLANE_DEPTH >= 0
 static inline vec3 position_from_depth(vec3 ray, real depth, pixel_centre centre,
                                        __constant const FrameConstants* frame) {

@@ -44,7 +44,8 @@ const T* find_same(const std::vector<T>& all, const T& wanted) {
 
 template <class T>
 bool all_same(const std::vector<T>& a, const std::vector<T>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return same(x, y); });
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const T& x, const T& y) { return same(x, y) && x.first == y.first; });
 }
 
 } // namespace
