@@ -119,8 +119,12 @@ TEST_F(EnvironmentRun, AConstantOneGivesTheAlbedo) {
         write_scene("image = \"grey.hdr\"\nintensity = 1.5\ndiffuse = \"" + std::string(source) + "\"");
         ASSERT_EQ(shade({"--scene", "scene.toml"}).exit_code, 0);
         const Decoded image = decode(folder / "out.exr");
+        // Band 2 of a constant is what the sum over texel centres leaves, most at the poles: 5/96 (pi/32)^2 of it for
+        // 32 rows. Else roundings of sums in single precision.
+        const float left = std::string(source) == "sh3" ? 5.04e-4F : 0.0F;
+        const float tolerance = 1.5F * grey * (left + 2e-6F);
         for (const float value : image.plane("R")) {
-            EXPECT_NEAR(value, 1.5F * grey, 2e-6F) << source; // sums over texels in single precision
+            EXPECT_NEAR(value, 1.5F * grey, tolerance) << source;
         }
     }
 }
@@ -219,6 +223,7 @@ TEST_F(EnvironmentRun, StandsBehindTheObjects) {
     const Outcome check = run({"check", "in.exr", "--scene", "scene.toml"});
     EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
     // Directions of pixels are needed; a header with worldToCamera alone does not give them.
+    write_gbuffer(folder / "in.exr", surface_planes_without("Position")); // from which it could be recovered
     write_scene("image = \"grey.hdr\"", "[output]\nbackground = true\n");
     const Outcome blind = shade({"--scene", "scene.toml"});
     EXPECT_EQ(blind.exit_code, 2) << blind.out;
@@ -441,23 +446,28 @@ TEST(RealEnvironments, OrientationLatLongInAMirror) {
     const Decoded image = decode(folder / "out.exr");
     int compared = 0;
     double range = 0.0;
-    for (int y = 0; y < test_height; y += 2) {
-        for (int x = 0; x < test_width; ++x) {
+    for (int y = 0; y < test_height; y += 4) {
+        for (int x = 0; x < test_width; x += 2) {
             const glm::dvec3 d = direction(x, y);
             if (d.z < -0.8) {
-                continue; // nearly behind the mirror: grazing, where AmbientBRDF is not 1
+                continue; // nearly behind the mirror: grazing, where the lobe is not narrow
             }
             const auto i = static_cast<std::size_t>(y * test_width + x);
-            const glm::dvec3 expected = blurred(picture, d);
+            // Of F0 = 1 a narrow lobe of this model reflects N.E: solid angles of L are 4 E.H times those of H, and
+            // the normaliser has only 4 (models.md section 1).
+            const double ne = std::sqrt(0.5 * (1.0 + d.z));
+            const glm::dvec3 expected = ne * blurred(picture, d);
             const glm::dvec3 seen(image.plane("R")[i], image.plane("G")[i], image.plane("B")[i]);
             // The level is bilinear on a grid of 384 cells: on the edge of a letter a percent of the contrast, which is
             // 1; and the linear normaliser is 0.2 % from the exact one.
-            EXPECT_LT(glm::length(seen - expected), 0.03) << x << " " << y;
+            EXPECT_LT(glm::length(seen - expected), 0.03)
+                << x << " " << y << ": " << seen.r << " " << seen.g << " " << seen.b << ", expected " << expected.r
+                << " " << expected.g << " " << expected.b;
             range = std::max(range, glm::length(expected));
             ++compared;
         }
     }
-    EXPECT_GT(compared, 500);
+    EXPECT_GT(compared, 150);
     EXPECT_GT(range, 0.5);
 }
 
