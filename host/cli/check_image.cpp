@@ -21,6 +21,18 @@ constexpr int colours = 3;
 constexpr std::array<const char*, colours> colour_names{"R", "G", "B"};
 constexpr std::array<const char*, 3> kinds{"device", "reference", "error"};
 
+// The planes in the upper left corner of larger ones, zero beyond.
+PlaneSlab in_corner(const PlaneSlab& planes, int width, int height) {
+    PlaneSlab larger(width, height, planes.count());
+    for (int p = 0; p < planes.count(); ++p) {
+        for (int y = 0; y < planes.height(); ++y) {
+            const auto row = planes.row(p, y);
+            std::copy(row.begin(), row.end(), larger.row(p, y).begin());
+        }
+    }
+    return larger;
+}
+
 } // namespace
 
 CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, std::uint64_t max_memory,
@@ -51,9 +63,11 @@ void check_dump_path(const std::filesystem::path& file, const std::filesystem::p
 
 void ErrorDump::add(const std::string& layer, const Frame& frame, const ShadedImage& shaded,
                     const reference::Image& expected) {
-    data_window_ = frame.data_window;
-    display_window_ = frame.display_window;
-    pixel_aspect_ = frame.pixel_aspect;
+    if (entries_.empty() || expected.width * expected.height > data_window_.width() * data_window_.height()) {
+        data_window_ = frame.data_window;
+        display_window_ = frame.display_window;
+        pixel_aspect_ = frame.pixel_aspect;
+    }
     PlaneSlab planes(expected.width, expected.height, colours * static_cast<int>(kinds.size()));
     for (int c = 0; c < colours; ++c) {
         const std::vector<double>& reference = expected.planes[static_cast<std::size_t>(c)];
@@ -76,12 +90,19 @@ void ErrorDump::write(const std::filesystem::path& file, int threads) const {
     image.data_window = data_window_;
     image.display_window = display_window_;
     image.pixel_aspect = pixel_aspect_;
+    std::vector<PlaneSlab> padded; // of the smaller frames
+    padded.reserve(entries_.size());
     for (const Entry& entry : entries_) {
+        const bool whole =
+            entry.planes.width() == data_window_.width() && entry.planes.height() == data_window_.height();
+        if (!whole) {
+            padded.push_back(in_corner(entry.planes, data_window_.width(), data_window_.height()));
+        }
+        const PlaneSlab& planes = whole ? entry.planes : padded.back();
         int plane = 0;
         for (const char* kind : kinds) {
             for (const char* colour : colour_names) {
-                image.channels.push_back(
-                    {fmt::format("{}{}.{}", entry.layer, kind, colour), &entry.planes, plane, true});
+                image.channels.push_back({fmt::format("{}{}.{}", entry.layer, kind, colour), &planes, plane, true});
                 ++plane;
             }
         }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 namespace clshade::cli {
@@ -112,7 +113,8 @@ std::vector<SuiteCase> check_suite(std::uint64_t seed) {
 
 Frame frame_of(const SuiteCase& suite_case, int width, int height, std::uint64_t seed,
                const std::shared_ptr<const LatLong>& image, const std::shared_ptr<const FilteredSet>& maps) {
-    Frame frame = random_frame(width, height, suite_case.shape, seed);
+    const int share = suite_case.environment ? 2 : 1;
+    Frame frame = random_frame(std::max(width / share, 1), std::max(height / share, 1), suite_case.shape, seed);
     if (!suite_case.preset.empty()) {
         // Presets hold constants only: what they are bound to does not matter, so they go onto this frame as they are.
         const std::string scene_text =

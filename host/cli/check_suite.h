@@ -36,7 +36,8 @@ struct SuiteCase {
 /// What the suite's environments are turned copies of: small, so that the reference, which filters by itself, is quick.
 [[nodiscard]] LatLong suite_environment();
 
-/// The G-buffer of a case, with the environment `maps` of `image` where it has one. The same seed gives the same bytes.
+/// The G-buffer of a case, with the environment `maps` of `image` where it has one; then half as wide and high, since
+/// the reference takes several times as long for it. The same seed gives the same bytes.
 [[nodiscard]] Frame frame_of(const SuiteCase& suite_case, int width, int height, std::uint64_t seed,
                              const std::shared_ptr<const LatLong>& image,
                              const std::shared_ptr<const FilteredSet>& maps);

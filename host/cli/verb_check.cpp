@@ -271,7 +271,10 @@ Action declare_check(CLI::App& app) {
                    "compare nothing; integrate environment times BRDF by brute force at N pixels and report how far "
                    "the real-time approximation is from that, per model and shininess")
         ->type_name("N");
-    app.add_option("--size", o->size, "size of the random G-buffers in pixels. Default: 192x192")->type_name("WxH");
+    app.add_option("--size", o->size,
+                   "size of the random G-buffers in pixels; half of that each way under an environment. "
+                   "Default: 192x192")
+        ->type_name("WxH");
     add_common_options(app, o->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);
