@@ -134,12 +134,15 @@ LatLong doubled(const LatLong& image) {
 }
 
 int source_height(int width, int height, double shininess) {
+    if (width < 1 || height < 1) {
+        throw std::invalid_argument(fmt::format("a picture of {}x{} texels", width, height));
+    }
     while (height < smallest_source_height) {
         width *= 2;
         height *= 2;
     }
     const double largest_texel = 2.0 / std::sqrt(shininess) / texels_per_deviation;
-    while (width % 2 == 0 && height % 2 == 0 && std::numbers::pi / (height / 2) <= largest_texel) {
+    while (width % 2 == 0 && height % 2 == 0 && std::numbers::pi / (0.5 * height) <= largest_texel) {
         width /= 2;
         height /= 2;
     }

@@ -51,7 +51,8 @@ void halve_rows(std::span<const float> upper, std::span<const float> lower, doub
 [[nodiscard]] LatLong doubled(const LatLong& image);
 
 /// Rows of the picture that a lobe of exponent `shininess` is filtered from (filter_layout.h, SOURCE), given the size
-/// of the environment; and that picture. A sharper lobe's source can be halved on to a softer lobe's.
+/// of the environment; and that picture. A sharper lobe's source can be halved on to a softer lobe's. Throws
+/// std::invalid_argument without texels.
 [[nodiscard]] int source_height(int width, int height, double shininess);
 [[nodiscard]] LatLong filter_source(const LatLong& image, double shininess);
 

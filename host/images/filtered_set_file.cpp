@@ -60,6 +60,7 @@ std::string level_file(int level) {
 /// All files of a set.
 std::vector<std::string> file_names() {
     std::vector<std::string> names;
+    names.reserve(radiance_levels + 3);
     for (int level = 0; level < radiance_levels; ++level) {
         names.push_back(level_file(level));
     }

@@ -171,7 +171,7 @@ TEST(LatLong, SourcesHaveFiveTexelsADeviation) {
             while (rows < 128) {
                 rows *= 2;
             }
-            while (rows % 2 == 0 && pi / (rows / 2) <= largest) {
+            while (rows % 2 == 0 && pi / (0.5 * rows) <= largest) {
                 rows /= 2;
             }
             EXPECT_EQ(source_height(2 * height, height, n), rows) << height << " " << n;
@@ -185,6 +185,7 @@ TEST(LatLong, SourcesHaveFiveTexelsADeviation) {
     EXPECT_EQ(source_height(1024, 512, 1.0), 8);
     EXPECT_EQ(source_height(1000, 500, 1.0), 125); // odd: no further
     EXPECT_EQ(source_height(2, 1, 8192.0), 128);
+    EXPECT_THROW(static_cast<void>(source_height(0, 0, 8.0)), std::invalid_argument);
 }
 
 TEST(LatLong, SourcesAreDoubledOrHalved) {
