@@ -59,7 +59,7 @@ std::uint64_t checked_size(const std::string& file) {
     }
     if (S_ISDIR(info.st_mode)) {
         if (fs::exists(fs::path(file) / "sh.exr") || fs::exists(fs::path(file) / "radiance_n8192.exr")) {
-            fail(file, "is a set of maps of which files are missing; run `clshade prefilter` again");
+            fail(file, "is a set of maps of which files are missing; remove it and run `clshade prefilter` again");
         }
         fail(file, "is a folder and no set that `clshade prefilter` wrote; name a lat-long .hdr or .exr");
     }

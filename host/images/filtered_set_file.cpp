@@ -444,7 +444,8 @@ FilteredSet read_filtered_set(const fs::path& set) {
     for (const std::string& name : file_names()) {
         std::error_code ignored;
         if (!fs::exists(set / name, ignored)) {
-            fail(set / name, "is missing from the set");
+            throw RuntimeFailure(
+                fmt::format("{}: is missing from the set; remove the set and {}", (set / name).string(), again));
         }
     }
     FilteredSet maps;
