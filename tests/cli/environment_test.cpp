@@ -24,10 +24,14 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr float grey = 0.5F;
+
+/// Of a test picture's plane.
+constexpr std::size_t pixel_index(int x, int y) {
+    return static_cast<std::size_t>(y) * test_width + static_cast<std::size_t>(x);
+}
 
 /// A Radiance picture without run lengths: grey 0.5, the left half brighter by `stops` stops.
 void write_hdr(const std::filesystem::path& file, int width, int height, int stops = 0) {
@@ -207,7 +211,7 @@ TEST_F(EnvironmentRun, StandsBehindTheObjects) {
     const Decoded image = decode(folder / "out.exr");
     for (int y = 0; y < test_height; ++y) {
         for (int x = 0; x < test_width; ++x) {
-            const auto i = static_cast<std::size_t>(y * test_width + x);
+            const auto i = pixel_index(x, y);
             EXPECT_EQ(image.plane("A")[i], 1.0F);
             if (x < test_width / 2 && y < test_height / 2) {
                 EXPECT_NEAR(image.plane("B")[i], 3.0F * grey, 1e-6F); // bilinear weights in single precision
@@ -369,6 +373,10 @@ struct Picture {
     int width = 0;
     int height = 0;
     std::vector<Imf::Rgba> texels;
+
+    [[nodiscard]] const Imf::Rgba& at(int x, int y) const {
+        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+    }
 };
 
 Picture read_with_openexr(const std::filesystem::path& file) {
@@ -399,7 +407,7 @@ glm::dvec3 blurred(const Picture& picture, const glm::dvec3& d) {
             if (c > 0.98) {
                 const double weight =
                     std::pow(0.5 * (1.0 + c), 4096.0) * std::sin(std::numbers::pi * (y + 0.5) / picture.height);
-                const Imf::Rgba& texel = picture.texels[static_cast<std::size_t>(y * picture.width + x)];
+                const Imf::Rgba& texel = picture.at(x, y);
                 sum += weight * glm::dvec3(texel.r, texel.g, texel.b);
                 weights += weight;
             }
@@ -452,7 +460,7 @@ TEST(RealEnvironments, OrientationLatLongInAMirror) {
             if (d.z < -0.8) {
                 continue; // nearly behind the mirror: grazing, where the lobe is not narrow
             }
-            const auto i = static_cast<std::size_t>(y * test_width + x);
+            const auto i = pixel_index(x, y);
             // Of F0 = 1 a narrow lobe of this model reflects N.E: solid angles of L are 4 E.H times those of H, and
             // the normaliser has only 4 (models.md section 1).
             const double ne = std::sqrt(0.5 * (1.0 + d.z));
@@ -498,7 +506,7 @@ TEST(RealEnvironments, BlenderSawTheSameBackground) {
             continue;
         }
         for (const char* channel : {"R", "G", "B"}) {
-            const double seen = render.plane(std::string("ViewLayer.Combined.") + channel)[i];
+            const auto seen = static_cast<double>(render.plane(std::string("ViewLayer.Combined.") + channel)[i]);
             errors.push_back(std::abs(static_cast<double>(image.plane(channel)[i]) - seen) / seen);
         }
     }
