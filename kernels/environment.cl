@@ -145,10 +145,7 @@ static inline void ask_radiance(blend_request* r, octahedral o, real shininess) 
 static inline rgb radiance_at(environment around, octahedral o, real shininess) {
     blend_request r;
     ask_radiance(&r, o, shininess);
-    FOR_EACH_HALF(h) {
-        answer_blend(around.maps, &r, h);
-    }
-    return blend_of(&r);
+    return answer_blend(around.maps, &r);
 }
 
 // 64 log2(n+1)/13

@@ -157,23 +157,17 @@ static inline void stage(staged_tap* to, tap t, int log2_bytes) {
     KEEP_IN_MEMORY(*to);
 }
 
-// Lookups are asked for, then answered together, half of the group at a time, then read: one after the other each would
-// wait for its own loads.
-#define FOR_EACH_HALF(h) __attribute__((opencl_unroll_hint(2))) for (int h = 0; h < 2; ++h)
-
+// Lookups are asked for early and answered late: each takes long, and what stands between hides it.
 typedef struct {
     staged_tap t;
-    real quarters[4];
 } colour_request;
 
 typedef struct {
     staged_tap t, u;
-    real quarters[4];
 } blend_request;
 
 typedef struct {
     staged_tap t;
-    real halves[2];
 } pair_request;
 
 static inline void ask_colour(colour_request* r, tap t) {
@@ -202,18 +196,24 @@ static inline real weighed_records(__global const float* maps, const staged_tap*
                weighed_record(maps, u, quarter, i));
 }
 
-static inline void answer_colour(__global const float* maps, colour_request* r, int side) {
-    for (int q = 2 * side; q < 2 * side + 2; ++q) {
-        r->quarters[q] = sum_quarters(weighed_record(maps, &r->t, q, 0), weighed_record(maps, &r->t, q, 1),
-                                      weighed_record(maps, &r->t, q, 2), weighed_record(maps, &r->t, q, 3));
-    }
+static inline real answer_quarter(__global const float* maps, const staged_tap* t, int q) {
+    return sum_quarters(weighed_record(maps, t, q, 0), weighed_record(maps, t, q, 1), weighed_record(maps, t, q, 2),
+                        weighed_record(maps, t, q, 3));
 }
 
-static inline void answer_blend(__global const float* maps, blend_request* r, int side) {
-    for (int q = 2 * side; q < 2 * side + 2; ++q) {
-        r->quarters[q] = sum_quarters(weighed_records(maps, &r->t, &r->u, q, 0), weighed_records(maps, &r->t, &r->u, q, 1),
-                                      weighed_records(maps, &r->t, &r->u, q, 2), weighed_records(maps, &r->t, &r->u, q, 3));
-    }
+static inline real blend_quarter(__global const float* maps, const staged_tap* t, const staged_tap* u, int q) {
+    return sum_quarters(weighed_records(maps, t, u, q, 0), weighed_records(maps, t, u, q, 1),
+                        weighed_records(maps, t, u, q, 2), weighed_records(maps, t, u, q, 3));
+}
+
+static inline rgb answer_colour(__global const float* maps, const colour_request* r) {
+    return gather_quarters(answer_quarter(maps, &r->t, 0), answer_quarter(maps, &r->t, 1),
+                           answer_quarter(maps, &r->t, 2), answer_quarter(maps, &r->t, 3));
+}
+
+static inline rgb answer_blend(__global const float* maps, const blend_request* r) {
+    return gather_quarters(blend_quarter(maps, &r->t, &r->u, 0), blend_quarter(maps, &r->t, &r->u, 1),
+                           blend_quarter(maps, &r->t, &r->u, 2), blend_quarter(maps, &r->t, &r->u, 3));
 }
 
 // The records of pixels i of two neighbouring quarters in one vector.
@@ -226,28 +226,20 @@ static inline real weighed_pair(__global const float* maps, const staged_tap* t,
     return (float16)(low, high) * (float16)(v, v, w, w);
 }
 
-static inline void answer_pair(__global const float* maps, pair_request* r, int side) {
+static inline real pair_half(__global const float* maps, const staged_tap* t, int side) {
     // Quarters: first value of four pixels, second of the same, first of the next four, second of those.
-    r->halves[side] = sum_quarters(weighed_pair(maps, &r->t, side, 0), weighed_pair(maps, &r->t, side, 1),
-                                   weighed_pair(maps, &r->t, side, 2), weighed_pair(maps, &r->t, side, 3));
+    return sum_quarters(weighed_pair(maps, t, side, 0), weighed_pair(maps, t, side, 1), weighed_pair(maps, t, side, 2),
+                        weighed_pair(maps, t, side, 3));
 }
 
-static inline rgb colour_of(const colour_request* r) {
-    return gather_quarters(r->quarters[0], r->quarters[1], r->quarters[2], r->quarters[3]);
-}
-
-static inline rgb blend_of(const blend_request* r) {
-    return gather_quarters(r->quarters[0], r->quarters[1], r->quarters[2], r->quarters[3]);
-}
-
-static inline pair pair_of(const pair_request* r) {
-    const pair p = {EVEN_QUARTERS(r->halves[0], r->halves[1]), ODD_QUARTERS(r->halves[0], r->halves[1])};
+static inline pair answer_pair(__global const float* maps, const pair_request* r) {
+    const real low = pair_half(maps, &r->t, 0);
+    const real high = pair_half(maps, &r->t, 1);
+    const pair p = {EVEN_QUARTERS(low, high), ODD_QUARTERS(low, high)};
     return p;
 }
 
 #else
-
-#define FOR_EACH_HALF(h) for (int h = 0; h < 1; ++h)
 
 // The sum over four corners.
 static inline float weigh(float4 corners, float w00, float w10, float w01, float w11) {
@@ -291,17 +283,14 @@ static inline pair pair_at(__global const float* maps, tap t) {
 
 typedef struct {
     tap t;
-    rgb colour;
 } colour_request;
 
 typedef struct {
     tap t, u;
-    rgb colour;
 } blend_request;
 
 typedef struct {
     tap t;
-    pair values;
 } pair_request;
 
 static inline void ask_colour(colour_request* r, tap t) {
@@ -318,28 +307,16 @@ static inline void ask_pair(pair_request* r, tap t) {
     r->t = t;
 }
 
-static inline void answer_colour(__global const float* maps, colour_request* r, int side) {
-    r->colour = colour_at(maps, r->t);
+static inline rgb answer_colour(__global const float* maps, const colour_request* r) {
+    return colour_at(maps, r->t);
 }
 
-static inline void answer_blend(__global const float* maps, blend_request* r, int side) {
-    r->colour = add_rgb(colour_at(maps, r->t), colour_at(maps, r->u));
+static inline rgb answer_blend(__global const float* maps, const blend_request* r) {
+    return add_rgb(colour_at(maps, r->t), colour_at(maps, r->u));
 }
 
-static inline void answer_pair(__global const float* maps, pair_request* r, int side) {
-    r->values = pair_at(maps, r->t);
-}
-
-static inline rgb colour_of(const colour_request* r) {
-    return r->colour;
-}
-
-static inline rgb blend_of(const blend_request* r) {
-    return r->colour;
-}
-
-static inline pair pair_of(const pair_request* r) {
-    return r->values;
+static inline pair answer_pair(__global const float* maps, const pair_request* r) {
+    return pair_at(maps, r->t);
 }
 
 #endif
@@ -348,20 +325,7 @@ static inline pair pair_of(const pair_request* r) {
 static inline rgb fetch_colour(__global const float* maps, tap t) {
     colour_request r;
     ask_colour(&r, t);
-    FOR_EACH_HALF(h) {
-        answer_colour(maps, &r, h);
-    }
-    return colour_of(&r);
-}
-
-// The same for the sum of two taps.
-static inline rgb fetch_blend(__global const float* maps, tap t, tap u) {
-    blend_request r;
-    ask_blend(&r, t, u);
-    FOR_EACH_HALF(h) {
-        answer_blend(maps, &r, h);
-    }
-    return blend_of(&r);
+    return answer_colour(maps, &r);
 }
 
 // A function of one variable as 128 lines: values at 0, 1, ..., 127 of x, then their slopes. 0 <= x <= 128.

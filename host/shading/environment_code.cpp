@@ -37,8 +37,7 @@ EnvironmentCode::EnvironmentCode(const BoundMaterial& material, const StackCode&
 }
 
 std::string EnvironmentCode::answering() const {
-    const std::string loop = answers_.text().empty() ? "" : "    FOR_EACH_HALF(h) {\n" + answers_.text() + "    }\n";
-    return body_.text() + loop + end_.text();
+    return body_.text() + end_.text();
 }
 
 std::string EnvironmentCode::name(std::string_view what, std::size_t k) const {
@@ -50,7 +49,6 @@ std::string EnvironmentCode::ask(std::string_view type, const std::string& name,
     if (requests_.insert(name).second) {
         members_ += fmt::format("    {}_request {};\n", type, name);
         asked_.line(fmt::format("{}(&q->{}, {});", function, name, arguments));
-        answers_.line(fmt::format("answer_{}(around.{}, &q->{}, h);", type, type == "pair" ? "ambient" : "maps", name));
     }
     return name;
 }
@@ -82,13 +80,15 @@ Value EnvironmentCode::radiance(std::size_t k) {
     const std::string request = name("seen", k);
     if (!layer.shininess.known) {
         maps_->ask_levels();
-        return Value::rgb(fmt::format(
-            "blend_of(&q->{})", ask("blend", request, "ask_radiance", "a.mirror, " + real_text(layer.shininess))));
+        return Value::rgb(
+            fmt::format("answer_blend(around.maps, &q->{})",
+                        ask("blend", request, "ask_radiance", "a.mirror, " + real_text(layer.shininess))));
     }
     const BlendedLevel level = maps_->ask_level(layer.shininess.number.x);
-    return Value::rgb(fmt::format("colour_of(&q->{})", ask("colour", request, "ask_colour",
-                                                           fmt::format("tap_of_map(a.mirror, {}.0f, {})", level.cells,
-                                                                       record_text(level.first)))));
+    return Value::rgb(
+        fmt::format("answer_colour(around.maps, &q->{})",
+                    ask("colour", request, "ask_colour",
+                        fmt::format("tap_of_map(a.mirror, {}.0f, {})", level.cells, record_text(level.first)))));
 }
 
 Value EnvironmentCode::streak_radiance(std::size_t k) {
@@ -155,7 +155,7 @@ Value EnvironmentCode::ambient(std::size_t k, const Value& scale_factor, const V
                                                 is_linear(k) ? "AMBIENT_LINEAR" : "AMBIENT_EXACT"));
     const std::string pair = name("scale_bias", k);
     if (requests_.insert(pair).second) {
-        end_.line(fmt::format("const pair {} = pair_of(&q->{});", pair, request));
+        end_.line(fmt::format("const pair {} = answer_pair(around.ambient, &q->{});", pair, request));
     }
     const Value scale = Value::real(pair + ".first");
     const Value bias = Value::real(pair + ".second");
@@ -167,7 +167,7 @@ Value EnvironmentCode::metallic(std::size_t k) {
     const std::string request =
         ask("colour", name("metallic", k), "ask_colour",
             fmt::format("ambient_tap(s.ne, {}, {})", real_text(ambient_row(k)), record_text(first)));
-    return product(Value::rgb(fmt::format("colour_of(&q->{})", request)), facts(k).reflecting);
+    return product(Value::rgb(fmt::format("answer_colour(around.maps, &q->{})", request)), facts(k).reflecting);
 }
 
 Value EnvironmentCode::reflected(std::size_t k) {

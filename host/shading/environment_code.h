@@ -21,7 +21,7 @@ class EnvironmentCode {
     EnvironmentCode(const BoundMaterial& material, const StackCode& stack, MapsLayout& maps);
 
     /// Members of a struct `q` of requests, empty without any. Lookups are asked for before the lights are met and
-    /// answered together after them, since each takes long and hinders no other.
+    /// answered after them, since each takes long.
     [[nodiscard]] const std::string& requests() const { return members_; }
     /// Body of a function of (q, m, s, a).
     [[nodiscard]] const std::string& asking() const { return asked_.text(); }
@@ -63,7 +63,7 @@ class EnvironmentCode {
     [[nodiscard]] Value weight(SpecularModel model);
     /// E/pi of the diffuse model.
     [[nodiscard]] std::string diffuse_light();
-    /// A request of that type, asked for by a call with these arguments and answered with all others; its name.
+    /// A request of that type, asked for by a call with these arguments; its name.
     [[nodiscard]] std::string ask(std::string_view type, const std::string& name, std::string_view function,
                                   const std::string& arguments);
 
@@ -78,7 +78,6 @@ class EnvironmentCode {
     std::string members_;
     CodeBlock asked_{4};
     CodeBlock body_{4};
-    CodeBlock answers_{8};
     CodeBlock end_{4}; ///< what needs the answers
     std::set<std::string> shared_;
     std::map<std::string, Value> made_;
