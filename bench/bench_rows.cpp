@@ -145,6 +145,7 @@ std::vector<BenchRow> stacks_in_studio(BenchLights lights) {
 
 std::vector<BenchRow> environment_rows() {
     std::vector<BenchRow> rows = stacks_in_studio(BenchLights::none);
+    rows.push_back(against_lambert(in_studio(scene_of(single_layer()), BenchLights::none)));
     std::vector<BenchRow> lit = stacks_in_studio(BenchLights::distant1);
     std::move(lit.begin(), lit.end(), std::back_inserter(rows));
     return rows;

@@ -103,7 +103,11 @@ std::optional<BenchHeadline> headline_of(const std::vector<BenchResult>& results
 std::vector<SpeedLimit> judged_limits(const std::vector<BenchResult>& results) {
     std::vector<SpeedLimit> limits;
     const std::string ibl = single_row(lambert, no_light);
-    judge_ratio(limits, results, "one environment to one light, single layer", 2.5, ibl, row_name(bare_scene()));
+    // Twice: with every parameter from a map, as the one-light kernel has them, and with F0 a constant.
+    judge_ratio(limits, results, "one environment to one light, every parameter from a map", 2.5,
+                row_name(in_studio(scene_of(single_layer()), no_light)), row_name(scene_of(single_layer())));
+    judge_ratio(limits, results, "one environment to one light, single layer of the deck's tables", 2.5, ibl,
+                row_name(bare_scene()));
     judge_ratio(limits, results, "dual to single layer, one environment", 1.30, dual_row(lambert, no_light), ibl);
     judge_ratio(limits, results, "Oren-Nayar to Lambert, one environment", 1.10, single_row(oren_nayar, no_light), ibl);
     judge_ratio(limits, results, "layered Oren-Nayar to Blinn-Lambert, light + environment", 1.14, heaviest_row(),

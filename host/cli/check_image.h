@@ -28,8 +28,8 @@ struct CheckInput {
 /// Throws as check_output_path does, and if --dump would overwrite the input.
 void check_dump_path(const std::filesystem::path& file, const std::filesystem::path& input);
 
-/// Planes device.R, reference.R, error.R (device - reference), ..., of one or several frames. They lie in the upper left
-/// corner of the largest frame's window.
+/// Planes device.R, reference.R, error.R (device - reference), ..., of one or several frames. They lie in the upper
+/// left corner of the largest frame's window.
 class ErrorDump {
   public:
     /// `layer`: put before the planes' names with a dot; may be empty.
