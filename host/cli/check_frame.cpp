@@ -110,10 +110,14 @@ reference::Tolerance ToleranceOverride::apply(const reference::Tolerance& defaul
     return tolerance;
 }
 
-std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded, const reference::Image& expected,
-                                     const ToleranceOverride& wanted, int threads) {
-    // Also where --rel and --abs leave it no say: it tells which channels are too dark for relative errors.
-    const reference::RoundingScale scale = reference::rounding_scale(frame, threads);
+Expectation expect(const Frame& frame, const AovSelection& aovs, int threads) {
+    return {reference::shade(frame, aovs, threads), reference::rounding_scale(frame, threads)};
+}
+
+std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded, const Expectation& expectation,
+                                     const ToleranceOverride& wanted) {
+    const reference::Image& expected = expectation.image;
+    const reference::RoundingScale& scale = expectation.scale;
     std::vector<CheckResult> results;
     for (const Group& group : groups_of(frame, wanted)) {
         std::vector<std::uint8_t> selected(expected.material.size());

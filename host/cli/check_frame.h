@@ -34,12 +34,19 @@ struct CheckResult {
     nlohmann::json worst; ///< x, y, inputs, device, reference; null if no pixel was compared
 };
 
-/// Compares what the device made of `frame` with the reference, whose rounding scale is found on `threads` threads:
-/// radiance, alpha and, where both have it, the environment's own AOV. One result per model_key that claims a pixel, in
-/// the order of the materials.
+/// What the reference knows of a frame. Its rounding scale is found also where --rel and --abs leave it no say: it
+/// tells which channels are too dark for relative errors.
+struct Expectation {
+    reference::Image image;
+    reference::RoundingScale scale;
+};
+
+[[nodiscard]] Expectation expect(const Frame& frame, const AovSelection& aovs, int threads);
+
+/// Compares what the device made of `frame` with the reference: radiance, alpha and, where both have it, the
+/// environment's own AOV. One result per model_key that claims a pixel, in the order of the materials.
 [[nodiscard]] std::vector<CheckResult> check_frame(const Frame& frame, const ShadedImage& shaded,
-                                                   const reference::Image& expected, const ToleranceOverride& wanted,
-                                                   int threads);
+                                                   const Expectation& expectation, const ToleranceOverride& wanted);
 
 /// Heading and one row per result: model, pixels, errors, tolerance, pass.
 [[nodiscard]] std::string check_table(const std::vector<CheckResult>& results);

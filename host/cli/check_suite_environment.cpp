@@ -12,7 +12,7 @@ namespace clshade::cli {
 namespace {
 
 constexpr int studio_rows = 128;
-constexpr int random_stacks = 6;
+constexpr int random_stacks = 4;
 
 using Lobes = std::vector<SpecularModel>;
 

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <future>
 #include <memory>
 #include <utility>
 
@@ -142,18 +143,24 @@ class CheckRun {
         Shader& shader = session.shader(aovs);
         report_.set_device(session_.info());
         stages.add("device", watch.lap());
+        const int threads = options_.common.host_threads();
+        // The reference works while the driver builds the kernel, which takes one core a second or two.
+        std::future<Expectation> reference =
+            std::async(std::launch::async, [&frame, &aovs, threads] { return expect(frame, aovs, threads); });
         const ShadedImage shaded = shader.shade(frame);
+        spdlog::debug("{}: kernel {} in {:.0f} ms", naming.name.empty() ? frame.file : naming.name,
+                      shaded.built_from_cache ? "from the cache" : "built", shaded.build_milliseconds);
         stages.add("shade", watch.lap());
+        const Expectation expectation = reference.get();
+        const reference::Image& expected = expectation.image;
+        stages.add("reference", watch.lap()); // what was left of it
         if (shaded.counts.fractional_ids > 0) {
             throw UsageError(
                 fmt::format("{}: material ids are filtered: {} pixels hold fractions; give a plane rendered "
                             "without a filter in [gbuffer] material_id",
                             frame.file, shaded.counts.fractional_ids));
         }
-        const int threads = options_.common.host_threads();
-        const reference::Image expected = reference::shade(frame, aovs, threads);
-        stages.add("reference", watch.lap());
-        for (CheckResult& result : check_frame(frame, shaded, expected, wanted_, threads)) {
+        for (CheckResult& result : check_frame(frame, shaded, expectation, wanted_)) {
             // Without INPUT the empty pixels of all random frames are the same; they stand in each one's row.
             const bool empty = result.model == "no_surface";
             if (!naming.name.empty() && empty && result.pass) {

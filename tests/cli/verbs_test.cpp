@@ -53,9 +53,9 @@ TEST(Check, EveryModelOnARandomGBuffer) {
     // random ones, 6 presets; each under a name of its own.
     constexpr std::size_t under_lights = 23 + 6 + 4 + 15 + 8 + 6;
     // In an environment: 3 x 4 lobes and one with constants, 7 diffuse models, 3 sources under a lobe, 6 ways of
-    // Oren-Nayar of which 2 with every source, 2 x (3 x 2 + 2) stacks and a deep one, 2 backgrounds, 6 random ones, 6
+    // Oren-Nayar of which 2 with every source, 2 x (3 x 2 + 2) stacks and a deep one, 2 backgrounds, 4 random ones, 6
     // presets.
-    EXPECT_EQ(models.size(), under_lights + 13 + 7 + 3 + 10 + 17 + 2 + 6 + 6);
+    EXPECT_EQ(models.size(), under_lights + 13 + 7 + 3 + 10 + 17 + 2 + 4 + 6);
     for (const char* model :
          {"none.oren_nayar_full", "blinn_phong_anisotropic.lambert", "blinn_phong_spectral.none",
           "blinn_phong_exact.lambert.exact", "layers2.blinn_phong.lambert.constant.none",
