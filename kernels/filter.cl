@@ -45,12 +45,12 @@ static inline float sum_of_8(float8 v) {
 // Large structures by value must not become calls: with the sums in memory a level takes five times as long.
 #define INLINED static inline __attribute__((always_inline))
 
-// The lobe without its factor, from h = (1 - R.w)/2: the power (1 - h)^(n/2), or the cosine 1 - 2 h.
-static inline real lobe(int cosine, real h, float half_exponent) {
+// The lobe without its factor, from h = (1 - R.w)/2 and cos2 = 1 - h, each without cancellation: the power
+// cos2^(n/2), or the cosine 1 - 2 h.
+static inline real lobe(int cosine, real h, real cos2, float half_exponent) {
     if (cosine) {
         return larger(fma(splat(-2.0f), h, splat(1.0f)), splat(0.0f));
     }
-    const real cos2 = larger(1.0f - h, splat(0.0f));
     return exp2_clamped(half_exponent * log2_cosine_squared(cos2, h));
 }
 
@@ -165,6 +165,11 @@ INLINED void filter_direction(__global const float* texels, __global const float
         const int step = row - direction.row;
         const float sine = sines[step] * direction.row_cos - cosines[step] * direction.row_sin;
         const float across = sine * sine;
+        // 1 - h = cos^2((theta + theta_R)/2) + sin theta sin theta_R cos^2(dphi/2) likewise far from R, where wide lobes
+        // still see a sun; the cosine is the sine of half the step from the row upside down.
+        const int turn = height - 1 - row - direction.row;
+        const float cosine = sines[turn] * direction.row_cos - cosines[turn] * direction.row_sin;
+        const float opposite = cosine * cosine;
         const float along = rows[row] * direction.sine;
         const float area = rows[height + row];
         const column_run run = columns_within(max(source.reach - across, 0.0f), along, direction.column, width);
@@ -179,9 +184,11 @@ INLINED void filter_direction(__global const float* texels, __global const float
             const int backward = (run.groups - 1) * LANES - forward;
             const int k = run.first + forward;
             const real s = LOAD(sines + k) * direction.column_cos - LOAD(cosines + k) * direction.column_sin;
+            const real c = LOAD(cosines + k) * direction.column_cos + LOAD(sines + k) * direction.column_sin;
             const real h = fma(along * s, s, splat(across));
+            const real cos2 = fma(along * c, c, splat(opposite));
             const mask inside = LANE_INDEX < splat((float)(run.count - forward));
-            const real weight = choose(inside, lobe(source.cosine, h, source.half_exponent), splat(0.0f));
+            const real weight = choose(inside, lobe(source.cosine, h, cos2, source.half_exponent), splat(0.0f));
             const real reversed = REVERSED(weight);
             row_weights += weight;
             upper_row = add_row(upper_row, weight, reversed, north, plane, run, forward, backward);
