@@ -289,7 +289,8 @@ Action declare_shade(CLI::App& app) {
                    "none | rle | zips | zip | piz | pxr24 | b44 | b44a | dwaa | dwab, with a level for zip (1-9) and "
                    "dwa. Default: zip")
         ->type_name("NAME[:LEVEL]");
-    app.add_option("--aov", o->aovs, "also write these planes: diffuse,specular,lights (one per light),environment")
+    app.add_option("--aov", o->aovs,
+                   "also write these planes: diffuse,specular,lights,environment (lights: one for each)")
         ->type_name("LIST");
     app.add_option("--keep", o->keep, "input layers passed through to the output, comma-separated")->type_name("LIST");
     app.add_flag("-u,--update", o->update_only,

@@ -64,9 +64,8 @@ TEST(Help, NamesEveryFlag) {
         }
     }
     const std::string shade = run_clshade({"help", "shade"}).out;
-    for (const char* word :
-         {"auto | bar | plain | openjd | alf | none", "auto | 1 | 4 | 8 | 16", "cpu | gpu",
-          "diffuse,specular,lights (one per light),environment", "half | float", "####", "%04d", "1-100x2", "MiB"}) {
+    for (const char* word : {"auto | bar | plain | openjd | alf | none", "auto | 1 | 4 | 8 | 16", "cpu | gpu",
+                             "diffuse,specular,lights,environment", "half | float", "####", "%04d", "1-100x2", "MiB"}) {
         EXPECT_THAT(shade, HasSubstr(word));
     }
 }
