@@ -11,7 +11,7 @@
 #include "radiance.cl"
 
 // Where maps begin, in records: colour records of levels 0 to 13, then the irradiance map, then what materials need.
-#define IRRADIANCE_RECORD 393408.0f
+#define IRRADIANCE_RECORD 405504.0f
 #define IRRADIANCE_CELLS 48.0f
 #define LAST_LEVEL 13.0f
 // Where the ambient tables begin, in pair records.
@@ -124,13 +124,14 @@ static inline real level_of(real shininess) {
     return larger(LAST_LEVEL - log2_positive(n), splat(0.0f));
 }
 
-// Levels 2 k and 2 k + 1 have 384/2^k = 3 q cells a side, q = 2^(7-k), at least 12; so 6 (4^8 - 4^(8-k)) = 393216 - 24 q^2
-// records lie before them.
+// Levels 2 k and 2 k + 1 have 384/2^k = 3 q cells a side, q = 2^(7-k), up to k = 3; 6 (4^8 - 4^(8-k)) = 393216 - 24 q^2
+// records lie before them. All further levels have 48.
 static inline tap tap_of_level(octahedral o, integer level) {
-    const real q = AS_REAL(((integer)(134) - (level >> 1)) << 23);
-    const real cells = larger(3.0f * q, splat(12.0f));
-    const real odd = LANES_FROM_INTEGER(level & (integer)(1));
-    const real first = fma(odd, cells * cells, fma(q * q, splat(-24.0f), splat(393216.0f)));
+    const integer k = min(level >> 1, (integer)(4));
+    const real q = AS_REAL(((integer)(134) - k) << 23);
+    const real cells = larger(3.0f * q, splat(48.0f));
+    const real beyond = LANES_FROM_INTEGER(level - 2 * k);
+    const real first = fma(beyond, cells * cells, fma(q * q, splat(-24.0f), splat(393216.0f)));
     return tap_at(o.x * cells, o.y * cells, cells, cells, first);
 }
 

@@ -4,7 +4,7 @@
 // LEVELS (models.md section 6; n falls by two a level, since with its factor of four values between levels err by
 // 12-14 %). Level i = 0..13 holds the radiance filtered with the lobe
 //   p_n(c) = (n+2)/(8 pi) ((1+c)/2)^(n/2),  n = 8192 / 2^i,  c = R.w,
-// for directions R on a grid of (cells+1)^2 vertices, cells = max(384 >> (i/2), 12): 1.6 or more grid steps in
+// for directions R on a grid of (cells+1)^2 vertices, cells = max(384 >> (i/2), 48): 1.6 or more grid steps in
 // the lobe's deviation 2/sqrt(n), and enough to keep the energy of a sun within 0.5 % at the widest levels.
 //
 // GRID. Vertex (i, j) of a level with `cells` cells a side, i, j = 0..cells, stands at index j (cells+1) + i and is the
@@ -47,7 +47,7 @@ inline constexpr double ambient_octaves = 13.0;
 }
 
 [[nodiscard]] constexpr int level_cells(int level) {
-    return std::max(384 >> (level / 2), 12);
+    return std::max(384 >> (level / 2), 48);
 }
 
 } // namespace clshade
