@@ -17,6 +17,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clshade {
@@ -87,6 +88,9 @@ TEST(BenchRows, KeysAreStable) {
                                   "layers2.blinn_phong.lambert.constant.approximated",
                                   "layers2.blinn_phong.oren_nayar.constant.approximated"}) {
             add({fmt::format("shade.{}.{}", stack, lights)}, ".1280x720");
+        }
+        if (std::string_view(lights) == "environment") { // the one-light kernel's own material
+            add({"shade.blinn_phong.lambert.environment"}, ".1280x720");
         }
     }
     add({"prefilter.1024x512", "prefilter.4096x2048", "prefilter.1024x512.cached"}, "");
