@@ -189,25 +189,18 @@ static inline octahedral streak_mirror(environment around, surface s, streak k, 
     return octahedral_in(around, mirrored(h, 2.0f * dot3(h, s.e) * inverse(dot3(h, h)), s.e));
 }
 
-static inline rgb streak_at(environment around, surface s, streak k) {
-    rgb sum = scale_rgb(radiance_at(around, streak_mirror(around, s, k, 0.0f), k.shininess), splat(0.53333333f));
-    for (int side = 0; side < 2; ++side) {
-        const float sign = side == 0 ? 1.0f : -1.0f;
-        const rgb near = radiance_at(around, streak_mirror(around, s, k, sign * 1.3556262f), k.shininess);
-        const rgb far = radiance_at(around, streak_mirror(around, s, k, sign * 2.8569700f), k.shininess);
-        sum = multiply_add_rgb(grey(splat(0.22207592f)), near, sum);
-        sum = multiply_add_rgb(grey(splat(0.011257411f)), far, sum);
-    }
-    return sum;
+// What one of the lookups sees: in a map for one exponent, or (cells = 0) between levels.
+static inline rgb streak_tap(environment around, surface s, streak k, float z, float cells, float first) {
+    const octahedral o = streak_mirror(around, s, k, z);
+    return cells > 0.0f ? map_at(around, o, cells, first) : radiance_at(around, o, k.shininess);
 }
 
-// The same in a map for one exponent.
-static inline rgb streak_in(environment around, surface s, streak k, float cells, float first) {
-    rgb sum = scale_rgb(map_at(around, streak_mirror(around, s, k, 0.0f), cells, first), splat(0.53333333f));
+static inline rgb streak_at(environment around, surface s, streak k, float cells, float first) {
+    rgb sum = scale_rgb(streak_tap(around, s, k, 0.0f, cells, first), splat(0.53333333f));
     for (int side = 0; side < 2; ++side) {
         const float sign = side == 0 ? 1.0f : -1.0f;
-        const rgb near = map_at(around, streak_mirror(around, s, k, sign * 1.3556262f), cells, first);
-        const rgb far = map_at(around, streak_mirror(around, s, k, sign * 2.8569700f), cells, first);
+        const rgb near = streak_tap(around, s, k, sign * 1.3556262f, cells, first);
+        const rgb far = streak_tap(around, s, k, sign * 2.8569700f, cells, first);
         sum = multiply_add_rgb(grey(splat(0.22207592f)), near, sum);
         sum = multiply_add_rgb(grey(splat(0.011257411f)), far, sum);
     }

@@ -96,15 +96,15 @@ Value EnvironmentCode::streak_radiance(std::size_t k) {
     const std::string streak = body_.declare("streak", name("streak", k),
                                              fmt::format("streak_of({}, {}, {})", layer.tangents,
                                                          real_text(layer.shininess_u), real_text(layer.shininess_v)));
-    std::string text = fmt::format("streak_at(around, s, {})", streak);
+    std::string map = "0.0f, 0.0f"; // none for one exponent: between levels
     if (layer.shininess_u.known && layer.shininess_v.known) {
         const BlendedLevel level =
             maps_->ask_level(streak_shininess(layer.shininess_u.number.x, layer.shininess_v.number.x));
-        text = fmt::format("streak_in(around, s, {}, {}.0f, {})", streak, level.cells, record_text(level.first));
+        map = fmt::format("{}.0f, {}", level.cells, record_text(level.first));
     } else {
         maps_->ask_levels();
     }
-    return end_.name(name("seen", k), Value::rgb(text));
+    return end_.name(name("seen", k), Value::rgb(fmt::format("streak_at(around, s, {}, {})", streak, map)));
 }
 
 bool EnvironmentCode::is_linear(std::size_t k) const {
