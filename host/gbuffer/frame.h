@@ -218,6 +218,7 @@ struct Frame {
     Window display_window;
     double pixel_aspect = 1.0;
     PlaneSlab planes;
+    int first_row = 0; ///< of the picture's rows (from the top of the data window) that `planes` hold: one band, or all
     std::vector<std::string> plane_names; ///< full channel name of each plane
     RolePlanes roles;
     NormalSpace normal_space = NormalSpace::world;

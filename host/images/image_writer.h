@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +62,44 @@ std::uint64_t write_exr(const std::filesystem::path& file, const OutputImage& im
 /// sRGB preview of channels R, G, B (and A; colours are divided by it): 8 bits, clamped, data window only. Temporary
 /// and errors as for write_exr.
 void write_png(const std::filesystem::path& file, const OutputImage& image);
+
+/// What became of a file.
+struct WrittenFile {
+    std::uint64_t clamped = 0;      ///< values too large for half, stored as +-65504
+    std::uint64_t bytes = 0;        ///< of the file
+    std::uint64_t hash = 0;         ///< as in its completion stamp (completion.h)
+    double busy_milliseconds = 0.0; ///< summed over the threads that worked at it
+    bool existed = false;           ///< Replace::no and somebody else was there first: nothing was written
+};
+
+enum class Replace { yes, no };
+
+/// An EXR file written in bands of rows, from the top to the bottom. The bytes depend on picture and settings only, not
+/// on bands or threads; work is spread over the TBB arena of the caller, within `isolate`. Never half-written: see
+/// write_exr.
+class ExrWriter {
+  public:
+    /// Makes the temporary and the header. Channels of `image` need no slab here. Throws like write_exr.
+    ExrWriter(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings,
+              Replace replace = Replace::yes);
+    ~ExrWriter();
+    ExrWriter(ExrWriter&&) noexcept;
+    ExrWriter& operator=(ExrWriter&&) noexcept;
+    ExrWriter(const ExrWriter&) = delete;
+    ExrWriter& operator=(const ExrWriter&) = delete;
+
+    /// The picture's next `rows` rows: rows [first, first + rows) of the slabs in `channels`, which are those of the
+    /// constructor in the same order, now with slabs. All bands but the last have a multiple of band_rows() rows.
+    void write(std::span<const OutputChannel> channels, int first, int rows);
+    /// Rows of a block of the compression.
+    [[nodiscard]] int band_rows() const;
+    /// When all rows are written: stamps the file, forces it to the medium, checks it, renames it.
+    [[nodiscard]] WrittenFile commit();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// Removes temporaries of files being written; async-signal-safe, for SIGINT and SIGTERM handlers.
 void remove_temporaries() noexcept;
