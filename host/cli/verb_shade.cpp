@@ -1,6 +1,6 @@
 #include "host/base/error.h"
+#include "host/base/frame_range.h"
 #include "host/base/suggest.h"
-#include "host/cli/frame_range.h"
 #include "host/cli/log_level.h"
 #include "host/cli/report_json.h"
 #include "host/cli/shade_frame.h"

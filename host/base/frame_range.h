@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clshade::cli {
+namespace clshade {
 
 /// Expands "1-100x2", "5", "10-1", "-5--1" and comma-separated lists of these, in the order written, each frame once.
 /// A range runs downwards when its end lies below its start. Throws UsageError for anything else, a step of 0, or
@@ -47,4 +47,4 @@ class SequencePath {
     std::string suffix_;
 };
 
-} // namespace clshade::cli
+} // namespace clshade

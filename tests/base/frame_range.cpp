@@ -1,18 +1,23 @@
+#include "host/base/frame_range.h"
+
 #include "host/base/error.h"
-#include "host/cli/frame_range.h"
-#include "tests/cli/run_program.h"
+#include "tests/device/temporary_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <numeric>
 
-namespace clshade::cli {
+namespace clshade {
 namespace {
 
 using ::testing::ElementsAre;
 using tests::TemporaryFolder;
-using tests::write_bytes;
+
+void touch(const std::filesystem::path& file) {
+    std::ofstream(file) << "x";
+}
 
 TEST(FrameRange, Expands) {
     EXPECT_THAT(parse_frames("7"), ElementsAre(7));
@@ -25,11 +30,17 @@ TEST(FrameRange, Expands) {
     EXPECT_THAT(parse_frames("5-1x2"), ElementsAre(5, 3, 1));
     EXPECT_THAT(parse_frames("5-1x-2"), ElementsAre(5, 3, 1));
     EXPECT_THAT(parse_frames("1-3,2-4"), ElementsAre(1, 2, 3, 4)) << "each frame once";
+    EXPECT_THAT(parse_frames("3,1,3-1"), ElementsAre(3, 1, 2)) << "in the order written";
+    EXPECT_THAT(parse_frames("1-5x2,205"), ElementsAre(1, 3, 5, 205));
+    EXPECT_THAT(parse_frames("-10-10x5"), ElementsAre(-10, -5, 0, 5, 10));
+    EXPECT_THAT(parse_frames("1--1"), ElementsAre(1, 0, -1));
+    EXPECT_THAT(parse_frames("0001-0010x03"), ElementsAre(1, 4, 7, 10)) << "leading zeros mean nothing";
+    EXPECT_THAT(parse_frames("-0"), ElementsAre(0));
 }
 
 TEST(FrameRange, RefusesEverythingElse) {
-    for (const char* text :
-         {"", "a", "1-", "1-5x0", "1-5x", "1,,2", "1-2-3", "1.5", "1-2000000000", "1-9999999", "99999999999"}) {
+    for (const char* text : {"", "a", "1-", "1-5x0", "1-5x", "1,,2", "1-2-3", "1.5", "1-2000000000", "1-9999999",
+                             "99999999999", "-2147483648", "1-5x-2147483648"}) {
         EXPECT_THROW(static_cast<void>(parse_frames(text)), UsageError) << text;
     }
 }
@@ -64,7 +75,12 @@ TEST(SequencePath, FillsInTheNumber) {
     EXPECT_EQ(SequencePath::parse("a.##.exr")->at(7), "a.07.exr");
     EXPECT_EQ(SequencePath::parse("a.%03d.exr")->at(7), "a.007.exr");
     EXPECT_EQ(SequencePath::parse("a.%d.exr")->at(7), "a.7.exr");
+    // Negative frames as printf and oiiotool write them: the sign is one of the four.
     EXPECT_EQ(SequencePath::parse("a.%04d.exr")->at(-7), "a.-007.exr");
+    EXPECT_EQ(SequencePath::parse("a.#.exr")->at(-7), "a.-007.exr");
+    EXPECT_EQ(SequencePath::parse("a.####.exr")->at(-1234), "a.-1234.exr");
+    EXPECT_EQ(SequencePath::parse("a.%d.exr")->at(-7), "a.-7.exr");
+    EXPECT_EQ(SequencePath::parse("a.%04d.exr")->at(12345), "a.12345.exr") << "wider than its padding";
     EXPECT_EQ(SequencePath::parse("shot#/a.exr")->at(1), "shot0001/a.exr");
     EXPECT_FALSE(SequencePath::parse("a.exr"));
     EXPECT_THROW(static_cast<void>(SequencePath::parse("a.#.b.#.exr")), UsageError);
@@ -74,19 +90,21 @@ TEST(SequencePath, FindsFilesOnDisk) {
     const TemporaryFolder folder;
     for (const char* name : {"a.0010.exr", "a.0002.exr", "a.12345.exr", "a.7.exr", "a.0003.exr.bak", "b.0001.exr",
                              "a.00x1.exr", "a.-005.exr"}) {
-        write_bytes(folder / name, "x");
+        touch(folder.path() / name);
     }
-    EXPECT_THAT(SequencePath::parse((folder / "a.####.exr").string())->existing(), ElementsAre(-5, 2, 10, 12345));
-    EXPECT_THAT(SequencePath::parse((folder / "a.%d.exr").string())->existing(), ElementsAre(7, 12345));
-    EXPECT_THROW(static_cast<void>(SequencePath::parse((folder / "c.#.exr").string())->existing()), RuntimeFailure);
-    EXPECT_THROW(static_cast<void>(SequencePath::parse((folder / "s#/c.exr").string())->existing()), UsageError);
+    EXPECT_THAT(SequencePath::parse((folder.path() / "a.####.exr").string())->existing(),
+                ElementsAre(-5, 2, 10, 12345));
+    EXPECT_THAT(SequencePath::parse((folder.path() / "a.%d.exr").string())->existing(), ElementsAre(7, 12345));
+    EXPECT_THROW(static_cast<void>(SequencePath::parse((folder.path() / "c.#.exr").string())->existing()),
+                 RuntimeFailure);
+    EXPECT_THROW(static_cast<void>(SequencePath::parse((folder.path() / "s#/c.exr").string())->existing()), UsageError);
 }
 
 TEST(SequencePath, AFileOfThatNameIsNoSequence) {
     const TemporaryFolder folder;
-    write_bytes(folder / "take#2.exr", "x");
-    EXPECT_FALSE(SequencePath::parse((folder / "take#2.exr").string()));
+    touch(folder.path() / "take#2.exr");
+    EXPECT_FALSE(SequencePath::parse((folder.path() / "take#2.exr").string()));
 }
 
 } // namespace
-} // namespace clshade::cli
+} // namespace clshade

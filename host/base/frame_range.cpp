@@ -1,4 +1,4 @@
-#include "host/cli/frame_range.h"
+#include "host/base/frame_range.h"
 
 #include "host/base/error.h"
 
@@ -9,18 +9,19 @@
 #include <regex>
 #include <set>
 
-namespace clshade::cli {
+namespace clshade {
 
 namespace {
 
 constexpr std::size_t most_frames = 1'000'000;
+constexpr int largest_frame = 1'000'000'000; // either way; leaves room for stepping past the end
 const char* const frames_help = "write 7, 1-100, 1-100x2, or a list such as 1,5,10-20";
 
 int to_int(const std::string& digits, std::string_view whole) {
     int value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    // Room above and below, so that stepping past the end cannot overflow.
-    if (error != std::errc() || end != digits.data() + digits.size() || std::abs(value) > 1'000'000'000) {
+    if (error != std::errc() || end != digits.data() + digits.size() || value < -largest_frame ||
+        value > largest_frame) {
         throw UsageError(fmt::format("--frames: '{}' in '{}' is out of range", digits, whole));
     }
     return value;
@@ -151,4 +152,4 @@ std::vector<int> SequencePath::existing() const {
     return frames;
 }
 
-} // namespace clshade::cli
+} // namespace clshade
