@@ -102,7 +102,7 @@ class CheckRun {
     void every_model() {
         const Size size = parse_size("--size", options_.size);
         const std::vector<SuiteCase> suite = check_suite(options_.common.seed);
-        Progress progress(options_.common, static_cast<int>(suite.size()));
+        Progress progress(options_.common, static_cast<int>(suite.size()), Steps::other);
         EnvironmentInput surroundings;
         surroundings.name = "studio";
         surroundings.image = std::make_shared<const LatLong>(suite_environment());
@@ -233,7 +233,7 @@ ExitCode ground_truth(const CheckOptions& options, JsonReport& report) {
     std::vector<reference::GroundTruthSample> all;
     if (options.input.empty()) {
         const std::vector<TruthCase> cases = truth_cases(options.common.host_threads());
-        Progress progress(options.common, static_cast<int>(cases.size()));
+        Progress progress(options.common, static_cast<int>(cases.size()), Steps::other);
         for (const TruthCase& truth_case : cases) {
             progress.update("integrating " + truth_case.name);
             append_samples(all, truth_case.frame, wanted, truth_case.name);

@@ -121,7 +121,7 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
     Session session(options.common);
     report.set_device(session.info()); // no device, no demo: before the G-buffers are made
     const int frames = static_cast<int>(parse_whole("--frames", options.frames, 1, 1000));
-    Progress progress(options.common, 2 * frames);
+    Progress progress(options.common, 2 * frames, Steps::other);
     const std::vector<FrameJob> jobs = make_gbuffers(folder, options, progress);
     const std::filesystem::path scene_file = folder / "scene.toml";
     write_text_file(scene_file, demo_scene_toml());
@@ -143,7 +143,7 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
                     {"input", job.input.string()},
                     {"output", job.output.string()},
                     {"preview", job.preview.string()},
-                    {"stage_ms", outcome.stages.json()},
+                    {"stage_ms", stages_json(outcome.stages)},
                     {"pixels", static_cast<std::int64_t>(outcome.width) * outcome.height},
                     {"nonfinite", outcome.counts.nonfinite},
                     {"warnings", outcome.warnings}});

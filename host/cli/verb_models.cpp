@@ -57,7 +57,7 @@ ExitCode make_thumbnails(const ModelsOptions& options, JsonReport& report) {
     }
     Session session(options.common);
     report.set_device(session.info());
-    Progress progress(options.common, static_cast<int>(preset_catalog().size()));
+    Progress progress(options.common, static_cast<int>(preset_catalog().size()), Steps::other);
     write_thumbnails(options.thumbnails, preset_catalog(), session, options.common.host_threads(),
                      [&](const std::filesystem::path& file) { progress.update("shading " + file.string()); });
     progress.clear();

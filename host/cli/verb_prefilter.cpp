@@ -150,7 +150,7 @@ ExitCode prefilter(const PrefilterOptions& options, JsonReport& report) {
     result["filter_ms"] = cost.milliseconds;
     result["kernel_ms"] = cost.kernel_milliseconds;
     result["build_ms"] = cost.build_milliseconds;
-    result["stage_ms"] = stages.json();
+    result["stage_ms"] = stages_json(stages);
     report.add(std::move(result));
     if (!options.common.quiet) {
         fmt::print("{}{}: {}x{} texels, {} in {} ms -> {}\n", table_of(set, means), options.input, image.width,
@@ -161,7 +161,7 @@ ExitCode prefilter(const PrefilterOptions& options, JsonReport& report) {
         RunStats stats;
         stats.add(stages);
         if (!cost.from_cache) {
-            stats.add({{"filter_environment", cost.kernel_milliseconds, 0}});
+            stats.add(std::vector<KernelTime>{{"filter_environment", cost.kernel_milliseconds, 0}});
         }
         fmt::print("\n{}", stats.text());
     }

@@ -115,7 +115,7 @@ nlohmann::json json_of(const FrameJob& job, const FrameOutcome& outcome) {
     for (const KernelTime& kernel : outcome.kernels) {
         kernels[kernel.kernel] = kernels.value(kernel.kernel, 0.0) + kernel.milliseconds;
     }
-    result["stage_ms"] = outcome.stages.json();
+    result["stage_ms"] = stages_json(outcome.stages);
     result["kernel_ms"] = kernels;
     result["pixels"] = static_cast<std::int64_t>(outcome.width) * outcome.height;
     result["nonfinite"] = outcome.counts.nonfinite;
