@@ -89,11 +89,12 @@ Chunk parse_chunk(std::string_view text) {
 }
 
 std::optional<SequencePath> SequencePath::parse(const std::string& path) {
-    static const std::regex place(R"(#+|%(0[1-9])?d)");
     std::error_code ignored;
-    if (std::filesystem::exists(path, ignored)) {
-        return std::nullopt;
-    }
+    return std::filesystem::exists(path, ignored) ? std::nullopt : parse_pattern(path);
+}
+
+std::optional<SequencePath> SequencePath::parse_pattern(const std::string& path) {
+    static const std::regex place(R"(#+|%(0[1-9])?d)");
     std::smatch match;
     if (!std::regex_search(path, match, place)) {
         return std::nullopt;

@@ -32,6 +32,8 @@ class SequencePath {
     /// Finds `#` (four digits), `##...` (as many digits as signs), `%04d` or `%d` in the file's name or its folders.
     /// Empty if there is none, or if a file of exactly this name exists. Throws UsageError for two such places.
     [[nodiscard]] static std::optional<SequencePath> parse(const std::string& path);
+    /// The same whatever files there are.
+    [[nodiscard]] static std::optional<SequencePath> parse_pattern(const std::string& path);
 
     [[nodiscard]] std::filesystem::path at(int frame) const;
     /// Numbers of the files on disk, ascending. Throws UsageError if the place lies in a folder's name, RuntimeFailure

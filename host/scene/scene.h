@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -262,6 +263,22 @@ struct Camera {
     SourceLocation where;
 };
 
+/// The keys of [camera] that are written somewhere; what is not comes from elsewhere.
+struct CameraKeys {
+    std::optional<glm::dmat4> matrix_world;
+    Lens lens = Lens::unknown;
+    double lens_value = 0.0; ///< as in Camera
+    SourceLocation where;
+};
+
+/// Cameras of single frames: [camera.frames.N] and `file` of [camera] (host/scene/frame_camera.h).
+struct FrameCameras {
+    CameraKeys shared;            ///< [camera] itself
+    std::map<int, Camera> listed; ///< [camera.frames.N], completed from [camera]
+    std::string file;             ///< side files as written, with a place for the frame number; empty: none
+    SourceLocation file_where;
+};
+
 enum class NormalSpace { world, camera };
 enum class NormalEncoding { signed_values, unorm };
 enum class DepthKind { planar, ray };
@@ -293,8 +310,9 @@ struct AutomaticParameters {
 };
 
 struct Scene {
-    std::string file; ///< empty for the default scene
-    std::optional<Camera> camera;
+    std::string file;             ///< empty for the default scene
+    std::optional<Camera> camera; ///< of every frame that has none of its own; empty if [camera] lacks matrix_world
+    std::optional<FrameCameras> frame_cameras;
     GBufferSettings gbuffer;
     std::vector<Light> lights;
     std::optional<Environment> environment;

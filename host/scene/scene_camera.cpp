@@ -1,13 +1,17 @@
 #include "host/scene/scene_camera.h"
 
-#include "host/scene/toml_reader.h"
+#include "host/base/error.h"
+#include "host/base/frame_range.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 namespace clshade {
 
@@ -15,6 +19,9 @@ namespace {
 
 constexpr std::array<std::string_view, 4> camera_keys{"matrix_world", "fov_x_degrees", "fov_y_degrees",
                                                       "orthographic_height"};
+constexpr std::array<std::string_view, 6> camera_table_keys{"matrix_world",        "fov_x_degrees", "fov_y_degrees",
+                                                            "orthographic_height", "file",          "frames"};
+constexpr std::string_view matrix_example = "matrix_world = [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]]";
 constexpr Range fov_range{"more than 0 and less than 180 degrees", 0.0, 180.0, true, true};
 
 constexpr std::array<std::string_view, 12> role_names{"normal",  "position",    "depth",    "albedo",
@@ -91,15 +98,16 @@ void check_rigid(const glm::dmat4& matrix, const SourceLocation& where) {
     }
 }
 
-void read_lens(const TableReader& table, Camera& camera) {
+void read_lens(const TableReader& table, CameraKeys& camera) {
     for (const std::string_view key : {"fov_x_degrees", "fov_y_degrees", "orthographic_height"}) {
         const TomlEntry* entry = table.find(key);
         if (entry == nullptr) {
             continue;
         }
         if (camera.lens != Lens::unknown) {
-            fail(entry->where, "[camera] has more than one of 'fov_x_degrees', 'fov_y_degrees' and "
-                               "'orthographic_height'; keep one");
+            fail(entry->where, fmt::format("{} has more than one of 'fov_x_degrees', 'fov_y_degrees' and "
+                                           "'orthographic_height'; keep one",
+                                           table.title()));
         }
         if (key == "orthographic_height") {
             camera.lens = Lens::orthographic;
@@ -111,17 +119,107 @@ void read_lens(const TableReader& table, Camera& camera) {
     }
 }
 
+int frame_number(const TomlEntry& entry) {
+    int number = 0;
+    const char* const end = entry.key.data() + entry.key.size();
+    const auto [last, error] = std::from_chars(entry.key.data(), end, number);
+    if (error != std::errc() || last != end) {
+        fail(entry.where, fmt::format("'{}' in [camera.frames] is not a frame number; write for instance "
+                                      "[camera.frames.101]",
+                                      entry.key));
+    }
+    return number;
+}
+
+std::map<int, Camera> read_listed(const TomlEntry& frames, const CameraKeys& shared) {
+    const TomlTable* table = frames.value.table();
+    if (table == nullptr || table->entries.empty()) {
+        fail(frames.where, "'frames' of [camera] holds no table; write for instance [camera.frames.101] and the keys "
+                           "of [camera] below it");
+    }
+    std::map<int, Camera> listed;
+    for (const TomlEntry& entry : table->entries) {
+        const int number = frame_number(entry);
+        const TableReader keys(entry.value, fmt::format("[camera.frames.{}]", entry.key), camera_keys);
+        const std::optional<Camera> camera = join_camera(read_camera_keys(keys), shared);
+        if (!camera) {
+            fail(entry.where, fmt::format("{} lacks 'matrix_world', and so does [camera]; write for instance {}",
+                                          keys.title(), matrix_example));
+        }
+        if (!listed.emplace(number, *camera).second) {
+            fail(entry.where, fmt::format("frame {} stands in [camera.frames] twice; keep one", number));
+        }
+    }
+    return listed;
+}
+
+std::string read_file_pattern(const TomlValue& value) {
+    const std::string& pattern = as_text(value, "file");
+    const std::string extension = std::filesystem::path(pattern).extension().string();
+    if (extension != ".json" && extension != ".toml") {
+        fail(value.where, fmt::format("'file' of [camera] is '{}'; name .json or .toml files, for instance "
+                                      "camera.%04d.json",
+                                      pattern));
+    }
+    try {
+        if (SequencePath::parse_pattern(pattern)) {
+            return pattern;
+        }
+    } catch (const UsageError& error) {
+        fail(value.where, fmt::format("'file' of [camera]: {}", error.what()));
+    }
+    fail(value.where,
+         fmt::format("'file' of [camera] is '{}', without a place for the frame number; write for instance "
+                     "camera.%04d.json or camera.####.json",
+                     pattern));
+}
+
 } // namespace
 
-Camera read_camera(const TomlEntry& entry) {
-    const TableReader table(entry.value, "[camera]", camera_keys);
-    const TomlValue& matrix = table.require("matrix_world", "matrix_world = [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]]");
-    Camera camera;
-    camera.where = entry.where;
-    camera.matrix_world = read_matrix(matrix);
-    check_rigid(camera.matrix_world, matrix.where);
-    read_lens(table, camera);
-    return camera;
+std::span<const std::string_view> camera_key_names() {
+    return camera_keys;
+}
+
+CameraKeys read_camera_keys(const TableReader& table) {
+    CameraKeys keys;
+    keys.where = table.where();
+    if (const TomlEntry* matrix = table.find("matrix_world")) {
+        keys.matrix_world = read_matrix(matrix->value);
+        check_rigid(*keys.matrix_world, matrix->value.where);
+    }
+    read_lens(table, keys);
+    return keys;
+}
+
+std::optional<Camera> join_camera(const CameraKeys& own, const CameraKeys& shared) {
+    const std::optional<glm::dmat4>& matrix = own.matrix_world ? own.matrix_world : shared.matrix_world;
+    if (!matrix) {
+        return std::nullopt;
+    }
+    const CameraKeys& lens = own.lens != Lens::unknown ? own : shared;
+    return Camera{*matrix, lens.lens, lens.lens_value, own.where};
+}
+
+void read_camera(const TomlEntry& entry, Scene& scene) {
+    const TableReader table(entry.value, "[camera]", camera_table_keys);
+    CameraKeys shared = read_camera_keys(table);
+    shared.where = entry.where;
+    scene.camera = join_camera(shared, shared);
+    const TomlEntry* file = table.find("file");
+    const TomlEntry* frames = table.find("frames");
+    if (file == nullptr && frames == nullptr) {
+        (void)table.require("matrix_world", matrix_example);
+        return;
+    }
+    FrameCameras& cameras = scene.frame_cameras.emplace();
+    cameras.shared = shared;
+    if (frames != nullptr) {
+        cameras.listed = read_listed(*frames, shared);
+    }
+    if (file != nullptr) {
+        cameras.file = read_file_pattern(file->value);
+        cameras.file_where = file->value.where;
+    }
 }
 
 GBufferSettings read_gbuffer(const TomlEntry& entry) {

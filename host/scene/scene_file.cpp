@@ -109,7 +109,7 @@ Scene read_tree(TomlTable root, const std::string& file, std::span<const std::st
         scene.background = read_background(*output, scene.environment.has_value());
     }
     if (const TomlEntry* camera = table.find("camera")) {
-        scene.camera = read_camera(*camera);
+        read_camera(*camera, scene);
     }
     if (const TomlEntry* gbuffer = table.find("gbuffer")) {
         scene.gbuffer = read_gbuffer(*gbuffer);

@@ -28,6 +28,7 @@ namespace clshade {
 ///   diffuse.ambient: precise; diffuse.shininess: the base's specular shininess (which must then be written if the
 ///   specular model is "none"; an anisotropic lobe has none to give).   tangent: the tangent role.   shininess_u,
 ///   shininess_v, metal: none the table `specular` or `diffuse` of a layer: model "none" for that part
+///   camera.matrix_world, where `file` or [camera.frames.N] give frames cameras of their own (frame_camera.h)
 ///   [material.default]: chosen from the roles of the G-buffer (Scene::automatic)
 /// `preset` stands for the keys of that preset, lowest in rank: what the file writes beside it wins, and what --set and
 /// --model say wins over both. Where a model is chosen, keys of lower rank that it lacks are dropped.

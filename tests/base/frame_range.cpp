@@ -104,6 +104,7 @@ TEST(SequencePath, AFileOfThatNameIsNoSequence) {
     const TemporaryFolder folder;
     touch(folder.path() / "take#2.exr");
     EXPECT_FALSE(SequencePath::parse((folder.path() / "take#2.exr").string()));
+    EXPECT_TRUE(SequencePath::parse_pattern((folder.path() / "take#2.exr").string()));
 }
 
 } // namespace
