@@ -22,6 +22,7 @@ Frame frame_from_planes(const PlaneSlab& planes, std::span<const std::string> na
             {.name = channel, .file_name = channel, .part = 0, .view = {}, .type = SampleType::float32});
     }
     FramePlan plan = plan_frame(layout, assign_roles(layout, scene.gbuffer, {}), scene);
+    allocate_planes(plan);
     PlaneSlab& wanted = plan.frame.planes;
     for (std::size_t i = 0; i < plan.channels.size(); ++i) {
         for (int y = 0; y < planes.height(); ++y) {

@@ -3,6 +3,7 @@
 #include "host/base/error.h"
 #include "host/gbuffer/frame_builder.h"
 #include "host/images/image_reader.h"
+#include "host/scene/frame_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +40,7 @@ class RolePlan {
         frame.display_window = layout_.display_window;
         frame.pixel_aspect = layout_.pixel_aspect;
         frame.data_window = window();
-        frame.planes =
-            PlaneSlab(frame.data_window.width(), frame.data_window.height(), static_cast<int>(plan_.channels.size()));
+        allocate_planes(plan_);
         read_planes(file, layout_, plan_, threads);
         return std::move(frame);
     }
@@ -100,8 +100,9 @@ CameraSurvey survey_camera(const std::filesystem::path& file, const ImageLayout&
     }
     const Window window = frame ? frame->data_window : window_of(layout);
     try {
-        if (scene.camera) {
-            survey.view = view_from_camera(*scene.camera, window, layout.display_window, layout.pixel_aspect);
+        // Throws where only frames of a sequence have cameras: a single file does not tell which it is.
+        if (const std::optional<Camera> camera = camera_of_frame(scene, std::nullopt)) {
+            survey.view = view_from_camera(*camera, window, layout.display_window, layout.pixel_aspect);
             survey.source = "[camera] of " + (scene.file.empty() ? "--set" : scene.file);
         } else if (const std::optional<View> header = view_from_header(layout, window)) {
             survey.view = header;

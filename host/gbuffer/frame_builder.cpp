@@ -236,9 +236,12 @@ FramePlan plan_frame(const ImageLayout& layout, const RoleAssignment& roles, con
         frame.plane_names.push_back(layout.channels[static_cast<std::size_t>(channel)].name);
     }
     plan_camera(plan, layout, scene);
-    frame.planes =
-        PlaneSlab(frame.data_window.width(), frame.data_window.height(), static_cast<int>(plan.channels.size()));
     return plan;
+}
+
+void allocate_planes(FramePlan& plan) {
+    const Window& window = plan.frame.data_window;
+    plan.frame.planes = PlaneSlab(window.width(), window.height(), static_cast<int>(plan.channels.size()));
 }
 
 Frame finish_frame(FramePlan plan) {

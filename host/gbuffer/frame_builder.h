@@ -12,12 +12,12 @@
 namespace clshade {
 
 /// The channels a scene needs of a file, each once, and how the frame will use them. Pixels are read into
-/// frame.planes: plane i takes layout.channels[channels[i]], over frame.data_window (the union of the data windows of
-/// the parts used; what a part does not cover stays 0).
+/// frame.planes, once allocated: plane i takes layout.channels[channels[i]], over frame.data_window (the union of the
+/// data windows of the parts used; what a part does not cover stays 0).
 struct FramePlan {
     std::vector<int> channels;
     std::vector<int> keep; ///< indices into `channels` of those passed through (--keep), used for shading or not
-    Frame frame;           ///< complete but for planes (allocated, zero) and for a camera recovered from positions
+    Frame frame;           ///< complete but for planes (none yet) and for a camera recovered from positions
     bool recover_camera = false; ///< neither scene nor header gave a whole camera: finish_frame recovers it
     bool pose_known = false;     ///< the header gave an eye but no lens: kept if the recovery fails
 };
@@ -27,6 +27,9 @@ struct FramePlan {
 /// the windows of the parts do not overlap, or when no camera can be had (naming the [camera] keys).
 [[nodiscard]] FramePlan plan_frame(const ImageLayout& layout, const RoleAssignment& roles, const Scene& scene,
                                    const std::vector<std::string>& keep = {});
+
+/// Gives plan.frame planes of zeros for the whole picture. Throws RuntimeFailure when memory is short.
+void allocate_planes(FramePlan& plan);
 
 /// After the planes are read: recovers the camera from the Position plane if the plan asks for it, turns camera-space
 /// lights into world space, checks the camera against the positions and adds warnings. Moves the frame out.

@@ -41,9 +41,9 @@ TEST(PlanFrame, ReadsOnlyWhatConstantsLeave) {
                 ElementsAre("ViewLayer.Normal.X", "ViewLayer.Normal.Y", "ViewLayer.Normal.Z", "ViewLayer.Position.X",
                             "ViewLayer.Position.Y", "ViewLayer.Position.Z", "ViewLayer.Depth.Z", "ViewLayer.UV.A"));
     EXPECT_EQ(plan.channels.size(), plan.frame.plane_names.size());
-    EXPECT_EQ(plan.frame.planes.count(), 8);
-    EXPECT_EQ(plan.frame.planes.width(), 64);
-    EXPECT_EQ(plan.frame.planes.height(), 32);
+    EXPECT_EQ(plan.channels.size(), 8U);
+    EXPECT_EQ(plan.frame.data_window, (Window{0, 0, 63, 31}));
+    EXPECT_EQ(plan.frame.planes.count(), 0) << "planes cost memory that bands do not need";
     EXPECT_EQ(plane_of(plan, plan.frame.roles.depth), "ViewLayer.Depth.Z");
     EXPECT_EQ(plane_of(plan, plan.frame.roles.coverage), "ViewLayer.UV.A");
     EXPECT_EQ(plan.frame.roles.material_id, no_plane);
@@ -217,8 +217,6 @@ ImageLayout two_parts(const Window& second) {
 TEST(PlanFrame, DataWindowIsTheUnionOfThePartsUsed) {
     const FramePlan plan = plan_of(two_parts({40, -10, 99, 20}), plain_scene());
     EXPECT_EQ(plan.frame.data_window, (Window{0, -10, 99, 31}));
-    EXPECT_EQ(plan.frame.planes.width(), 100);
-    EXPECT_EQ(plan.frame.planes.height(), 42);
     EXPECT_EQ(plan.frame.display_window, (Window{0, 0, 63, 31}));
     // A part nobody reads does not count.
     Scene scene = plain_scene();
@@ -272,6 +270,15 @@ TEST(PlanFrame, ASceneCameraWithoutALensNeedsPositions) {
     EXPECT_THAT(plan_error(layout_of({layer("N", "XYZ"), layer("Z", "V")}), scene), HasSubstr("fov_y_degrees"));
 }
 
+TEST(PlanFrame, PlanesAreAllocatedForTheWholePicture) {
+    FramePlan plan = plan_of(blender_layout(), plain_scene());
+    allocate_planes(plan);
+    EXPECT_EQ(plan.frame.planes.count(), 8);
+    EXPECT_EQ(plan.frame.planes.width(), 64);
+    EXPECT_EQ(plan.frame.planes.height(), 32);
+    EXPECT_EQ(plan.frame.planes.at(7, 63, 31), 0.0F);
+}
+
 TEST(PlanFrame, WarningsOfFileAndRolesArePassedOn) {
     ImageLayout layout = blender_layout();
     layout.warnings = {"an oddity"};
@@ -284,9 +291,15 @@ View view_from_camera_of(const Camera& camera, const ImageLayout& layout) {
     return view_from_camera(camera, layout.parts[0].data_window, layout.display_window, layout.pixel_aspect);
 }
 
+FramePlan allocated_plan(const ImageLayout& layout, const Scene& scene) {
+    FramePlan plan = plan_of(layout, scene);
+    allocate_planes(plan);
+    return plan;
+}
+
 /// A plan whose planes hold what `view` sees; roles as plan_frame binds them for Normal, Position, Depth and UV.A.
 FramePlan filled_plan(const ImageLayout& layout, const Scene& scene, const View& view) {
-    FramePlan plan = plan_of(layout, scene);
+    FramePlan plan = allocated_plan(layout, scene);
     const Frame seen =
         testing::make_frame(view, plan.frame.data_window, plan.frame.display_window, 1.0, testing::blocks);
     const RolePlanes& roles = plan.frame.roles;
@@ -344,12 +357,12 @@ TEST(FinishFrame, AnEyeFromTheHeaderIsKeptWhenNothingBetterCanBeHad) {
     layout.matrices["worldToCamera"][3] = glm::dvec4(1.0, 2.0, 3.0, 1.0);
     Scene scene = plain_scene();
     scene.camera.reset();
-    const Frame frame = finish_frame(plan_of(layout, scene)); // planes of zeros: nothing to recover from
+    const Frame frame = finish_frame(allocated_plan(layout, scene)); // planes of zeros: nothing to recover from
     EXPECT_EQ(frame.view.eye, glm::dvec3(-1.0, -2.0, -3.0));
     EXPECT_FALSE(frame.view.has_rays);
     EXPECT_THAT(frame.warnings, ElementsAre(HasSubstr("only the eye is known")));
     layout.matrices.clear();
-    EXPECT_THROW((void)finish_frame(plan_of(layout, scene)), UsageError);
+    EXPECT_THROW((void)finish_frame(allocated_plan(layout, scene)), UsageError);
 }
 
 TEST(OutputPlanes, NamesInOrder) {

@@ -66,6 +66,7 @@ Agreement agreement_in(const std::filesystem::path& file) {
     const ImageLayout layout = read_layout(file);
     const Scene scene = scene_of_names();
     FramePlan plan = plan_frame(layout, assign_roles(layout, scene.gbuffer, ""), scene);
+    allocate_planes(plan);
     read_planes(file, layout, plan, 2);
     const Frame& frame = plan.frame;
     Agreement agreement;
@@ -134,6 +135,7 @@ TEST(Cryptomatte, OfArnoldHasNamesWithSlashes) {
     scene.materials[3].names = {"ball_asset"};
     scene.gbuffer.roles = {{"normal", {"R", "G", "B"}, {}}}; // the file has none; any three will do
     FramePlan plan = plan_frame(layout, assign_roles(layout, scene.gbuffer, ""), scene);
+    allocate_planes(plan);
     read_planes(file, layout, plan, 1);
     const std::vector<std::string> channels{"crypto_material00.R", "crypto_object00.R", "crypto_asset00.R"};
     for (std::size_t i = 0; i < channels.size(); ++i) {
