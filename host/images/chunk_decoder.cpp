@@ -1,20 +1,17 @@
-#include "host/base/error.h"
+#include "host/images/chunk_slices.h"
 #include "host/images/part_decoder.h"
 #include "host/images/unpack.h"
 
 #include <fmt/format.h>
 #include <libdeflate.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
+#include <cstdint>
 #include <memory>
-#include <mutex>
 #include <new>
-#include <optional>
-#include <system_error>
-#include <thread>
+#include <span>
 
 namespace clshade {
 
@@ -24,179 +21,141 @@ struct FreeDecompressor {
     void operator()(libdeflate_decompressor* decompressor) const { libdeflate_free_decompressor(decompressor); }
 };
 
-/// Where the samples of a channel lie in a chunk's row, and where they go.
-struct RowSlice {
-    SampleType type = SampleType::half;
-    std::size_t sample_offset = 0; ///< bytes per pixel of the channels before it
-    float* plane = nullptr;
+/// Chunks that follow one another in the file are read together up to this many bytes: far fewer calls for files of one
+/// line a chunk, and what was read is still in the cache when it is unpacked.
+constexpr std::uint64_t most_read_together = std::uint64_t{1} << 19U;
+
+/// What a thread keeps from chunk to chunk.
+struct Scratch {
+    std::unique_ptr<libdeflate_decompressor, FreeDecompressor> inflater{libdeflate_alloc_decompressor()};
+    std::vector<exr_chunk_info_t> chunks;
+    std::vector<std::byte> packed, inflated, row;
 };
 
-/// What all chunks of a part share.
-struct PartPlan {
-    std::vector<RowSlice> slices;
-    std::size_t pixel_bytes = 0;
-    int tile_width = 0; ///< 0: scan lines
-    int tile_height = 0;
-    exr_attr_box2i_t window{};
-    PlaneGeometry geometry;
+/// Some chunks as they lie in the file, which may hold the last first.
+struct FileRange {
+    std::size_t chunks = 0;
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
 };
 
-/// Samples lie in the file line by line, and within a line channel by channel in the header's order.
-PartPlan plan_part(const ExrFile& file, int part, const std::vector<PlaneTarget>& targets,
-                   const PlaneGeometry& geometry) {
-    PartPlan plan;
-    plan.geometry = geometry;
-    exr_get_data_window(file.context(), part, &plan.window);
-    exr_storage_t storage = EXR_STORAGE_SCANLINE;
-    exr_get_storage(file.context(), part, &storage);
-    if (storage == EXR_STORAGE_TILED) {
-        exr_get_tile_sizes(file.context(), part, 0, 0, &plan.tile_width, &plan.tile_height);
-    }
-    const exr_attr_chlist_t* channels = nullptr;
-    exr_get_channels(file.context(), part, &channels);
-    std::vector<bool> found(targets.size(), false);
-    for (int i = 0; i < channels->num_channels; ++i) {
-        const exr_attr_chlist_entry_t& channel = channels->entries[i];
-        const SampleType type = channel.pixel_type == EXR_PIXEL_HALF   ? SampleType::half
-                                : channel.pixel_type == EXR_PIXEL_UINT ? SampleType::uint32
-                                                                       : SampleType::float32;
-        for (std::size_t t = 0; t < targets.size(); ++t) {
-            if (!found[t] && targets[t].channel == channel.name.str) {
-                plan.slices.push_back({type, plan.pixel_bytes, targets[t].plane});
-                found[t] = true;
-            }
+/// How many of the chunks to read in one piece: not too much, and not much more than the chunks themselves.
+FileRange next_range(std::span<const exr_chunk_info_t> chunks) {
+    FileRange range;
+    std::uint64_t wanted = 0;
+    for (const exr_chunk_info_t& chunk : chunks) {
+        const std::uint64_t first = range.chunks == 0 ? chunk.data_offset : std::min(range.first, chunk.data_offset);
+        const std::uint64_t last = std::max(range.last, chunk.data_offset + chunk.packed_size);
+        wanted += chunk.packed_size;
+        if (range.chunks > 0 && (last - first > most_read_together || last - first > wanted + wanted / 8)) {
+            break;
         }
-        plan.pixel_bytes += bytes_of(type);
+        range = {range.chunks + 1, first, last};
     }
-    return plan;
+    return range;
 }
 
-/// One worker: owns the scratch memory and decodes chunk after chunk.
-class ChunkDecoder {
+class ChunkDecoder : public PartDecoder {
   public:
-    ChunkDecoder(const ExrFile& file, const PartPlan& plan)
-        : file_(file), plan_(plan), inflater_(libdeflate_alloc_decompressor()) {
-        if (inflater_ == nullptr) {
-            throw std::bad_alloc();
-        }
+    explicit ChunkDecoder(const PartSource& source) : source_(source), layout_(find_slices(source)) {}
+
+    [[nodiscard]] std::size_t chunk_bytes() const override {
+        return layout_.pixel_bytes * static_cast<std::size_t>(source_.grid.chunk_width) *
+               static_cast<std::size_t>(source_.grid.chunk_height);
     }
 
-    /// False: the chunk's data is damaged.
-    [[nodiscard]] bool decode(const exr_chunk_info_t& chunk) {
-        const auto rows = static_cast<std::size_t>(chunk.height);
-        const auto width = static_cast<std::size_t>(chunk.width);
-        const std::size_t unpacked = rows * width * plan_.pixel_bytes;
-        const std::size_t packed = chunk.packed_size;
-        packed_.resize(packed);
-        file_.read_at(chunk.data_offset, packed_);
-        const bool stored = packed == unpacked; // data that would grow is stored as it is, whatever the compression
-        if (!stored && !decompress(static_cast<exr_compression_t>(chunk.compression), unpacked)) {
-            return false;
+    void decode(std::size_t first, std::size_t last, const Band& band) override {
+        Scratch& scratch = scratch_.local();
+        if (scratch.inflater == nullptr) {
+            throw std::bad_alloc();
         }
-        const int x = plan_.tile_width > 0 ? plan_.window.min.x + chunk.start_x * plan_.tile_width : chunk.start_x;
-        const int y = plan_.tile_height > 0 ? plan_.window.min.y + chunk.start_y * plan_.tile_height : chunk.start_y;
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (const RowSlice& slice : plan_.slices) {
-                const std::size_t start = width * (row * plan_.pixel_bytes + slice.sample_offset);
-                float* out = slice.plane +
-                             (std::int64_t{y} + static_cast<std::int64_t>(row) - plan_.geometry.window.y_min) *
-                                 plan_.geometry.pitch +
-                             (std::int64_t{x} - plan_.geometry.window.x_min);
-                if (stored) {
-                    unpack_row(slice.type, packed_.data() + start, width, out);
-                } else {
-                    merge_row(slice.type, inflated_.data() + start / 2,
-                              inflated_.data() + (unpacked + 1) / 2 + start / 2, width, out, row_);
-                }
+        scratch.chunks.clear();
+        for (std::size_t i = first; i < last; ++i) {
+            scratch.chunks.push_back(find_chunk(*source_.file, source_.part, source_.grid, i));
+        }
+        for (std::size_t done = 0; done < scratch.chunks.size();) {
+            const FileRange range = next_range(std::span(scratch.chunks).subspan(done));
+            scratch.packed.resize(range.last - range.first);
+            source_.file->read_at(range.first, scratch.packed);
+            for (std::size_t i = done; i < done + range.chunks; ++i) {
+                const exr_chunk_info_t& chunk = scratch.chunks[i];
+                decode_chunk(first + i,
+                             std::span(scratch.packed).subspan(chunk.data_offset - range.first, chunk.packed_size),
+                             scratch, band);
             }
+            done += range.chunks;
         }
-        return true;
     }
 
   private:
-    /// Undoes RLE or ZIP. What comes out holds differences of bytes, the even bytes of the data before the odd ones.
-    [[nodiscard]] bool decompress(exr_compression_t compression, std::size_t unpacked) {
-        if (compression == EXR_COMPRESSION_NONE || packed_.size() > unpacked) {
+    void decode_chunk(std::size_t chunk, std::span<const std::byte> packed, Scratch& scratch, const Band& band) const {
+        const Window area = source_.grid.area(chunk);
+        const auto width = static_cast<std::size_t>(area.width());
+        const std::size_t unpacked = width * static_cast<std::size_t>(area.height()) * layout_.pixel_bytes;
+        const bool stored = packed.size() == unpacked; // data that would grow is stored as it is, whatever the method
+        if (!stored && !decompress(packed, unpacked, scratch)) {
+            const std::string label = source_.file->part_label(source_.part);
+            source_.file->fail(fmt::format("{}pixels of chunk {} are damaged; render or copy the file again",
+                                           label.empty() ? "" : label + ": ", chunk));
+        }
+        const LineRange lines = lines_in_band(area, band);
+        for (int line = lines.first; line <= lines.last; ++line) {
+            for (const ChunkSlice& slice : layout_.slices) {
+                const std::size_t start =
+                    width * (static_cast<std::size_t>(line) * layout_.pixel_bytes + slice.sample_offset);
+                float* out = band.at(slice.plane, area.x_min, area.y_min + line);
+                if (stored) {
+                    unpack_row(slice.type, packed.data() + start, width, out);
+                } else {
+                    merge_row(slice.type, scratch.inflated.data() + start / 2,
+                              scratch.inflated.data() + (unpacked + 1) / 2 + start / 2, width, out, scratch.row);
+                }
+            }
+        }
+    }
+
+    /// Undoes RLE or ZIP into scratch.inflated: the even bytes of the data before the odd ones. False: damaged.
+    [[nodiscard]] bool decompress(std::span<const std::byte> packed, std::size_t unpacked, Scratch& scratch) const {
+        if (source_.compression == EXR_COMPRESSION_NONE || packed.size() > unpacked) {
             return false;
         }
-        inflated_.resize(unpacked);
-        if (compression == EXR_COMPRESSION_RLE) {
-            if (!undo_runs(packed_, inflated_)) {
+        scratch.inflated.resize(unpacked);
+        if (source_.compression == EXR_COMPRESSION_RLE) {
+            if (!undo_runs(packed, scratch.inflated)) {
                 return false;
             }
         } else {
             std::size_t got = 0;
-            if (libdeflate_zlib_decompress(inflater_.get(), packed_.data(), packed_.size(), inflated_.data(), unpacked,
-                                           &got) != LIBDEFLATE_SUCCESS ||
+            if (libdeflate_zlib_decompress(scratch.inflater.get(), packed.data(), packed.size(),
+                                           scratch.inflated.data(), unpacked, &got) != LIBDEFLATE_SUCCESS ||
                 got != unpacked) {
                 return false;
             }
         }
-        undo_differences(inflated_);
+        undo_differences(scratch.inflated);
         return true;
     }
 
-    const ExrFile& file_;
-    const PartPlan& plan_;
-    std::unique_ptr<libdeflate_decompressor, FreeDecompressor> inflater_;
-    std::vector<std::byte> packed_, inflated_, row_;
+    const PartSource& source_;
+    ChunkSlices layout_;
+    tbb::enumerable_thread_specific<Scratch> scratch_;
 };
-
-/// Runs `work` on `threads` threads (fewer if the system has none left); rethrows the first exception.
-template <typename Work>
-void run_on_threads(int threads, const Work& work) {
-    std::mutex mutex;
-    std::exception_ptr failure;
-    const auto guarded = [&] {
-        try {
-            work();
-        } catch (...) {
-            const std::lock_guard lock(mutex);
-            if (!failure) {
-                failure = std::current_exception();
-            }
-        }
-    };
-    std::vector<std::jthread> helpers;
-    try {
-        for (int i = 1; i < threads; ++i) {
-            helpers.emplace_back(guarded);
-        }
-    } catch (const std::system_error&) { // NOLINT(bugprone-empty-catch): fewer helpers do the same work
-    }
-    guarded();
-    helpers.clear();
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
-}
 
 } // namespace
 
-bool has_own_decoder(exr_compression_t compression) {
-    return compression == EXR_COMPRESSION_NONE || compression == EXR_COMPRESSION_RLE ||
-           compression == EXR_COMPRESSION_ZIPS || compression == EXR_COMPRESSION_ZIP;
+std::unique_ptr<PartDecoder> make_chunk_decoder(const PartSource& source) {
+    return std::make_unique<ChunkDecoder>(source);
 }
 
-void decode_chunks(const ExrFile& file, int part, const std::vector<PlaneTarget>& targets,
-                   const PlaneGeometry& geometry, int threads) {
-    const std::vector<exr_chunk_info_t> chunks = full_resolution_chunks(file, part);
-    const PartPlan plan = plan_part(file, part, targets, geometry);
-    std::atomic<std::size_t> next{0};
-    try {
-        run_on_threads(std::min<int>(threads, static_cast<int>(std::min<std::size_t>(chunks.size(), 1024))), [&] {
-            ChunkDecoder decoder(file, plan);
-            for (std::size_t i = next++; i < chunks.size(); i = next++) {
-                if (!decoder.decode(chunks[i])) {
-                    next = chunks.size();
-                    const std::string label = file.part_label(part);
-                    file.fail(fmt::format("{}pixels of chunk {} are damaged; render or copy the file again",
-                                          label.empty() ? "" : label + ": ", chunks[i].idx));
-                }
-            }
-        });
-    } catch (const std::bad_alloc&) {
-        file.fail("not enough memory to decode the pixels; free memory or use fewer threads");
+std::unique_ptr<PartDecoder> make_decoder(const PartSource& source) {
+    switch (source.compression) {
+    case EXR_COMPRESSION_NONE:
+    case EXR_COMPRESSION_RLE:
+    case EXR_COMPRESSION_ZIPS:
+    case EXR_COMPRESSION_ZIP:
+        return make_chunk_decoder(source);
+    default:
+        return make_library_decoder(source);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <mutex>
@@ -18,6 +19,7 @@ struct ExrFile::State {
     std::string name;
     int descriptor = -1;
     std::uint64_t size = 0;
+    mutable std::atomic<std::uint64_t> bytes_read{0};
     exr_context_t context = nullptr;
     int parts = 0;
     mutable std::mutex mutex;
@@ -54,6 +56,7 @@ struct ExrFile::State {
             }
             done += static_cast<std::uint64_t>(got);
         }
+        bytes_read.fetch_add(done, std::memory_order_relaxed);
         return static_cast<std::int64_t>(done);
     }
 
@@ -84,60 +87,8 @@ namespace {
 constexpr std::array<std::uint8_t, 4> magic{0x76, 0x2f, 0x31, 0x01};
 constexpr std::string_view again = "render or copy the file again";
 
-/// The most unpacked bytes that one packed byte can stand for. Deflate reaches 1032 (zlib's documentation); PXR24 packs
-/// 4 bytes into 3 before it; PIZ codes runs of 255 two-byte values in about 10 bits; RLE packs 127 bytes into 2; B44A
-/// 32 bytes into 3; DWA keeps at least one deflated two-byte value of 64 pixels, up to 4 bytes each.
-double largest_ratio(exr_compression_t compression) {
-    switch (compression) {
-    case EXR_COMPRESSION_NONE:
-        return 1.0;
-    case EXR_COMPRESSION_RLE:
-        return 64.0;
-    case EXR_COMPRESSION_ZIPS:
-    case EXR_COMPRESSION_ZIP:
-        return 1032.0;
-    case EXR_COMPRESSION_PXR24:
-        return 2 * 1032.0;
-    case EXR_COMPRESSION_PIZ:
-        return 1024.0;
-    case EXR_COMPRESSION_B44:
-    case EXR_COMPRESSION_B44A:
-        return 11.0;
-    default:
-        return 128 * 1032.0;
-    }
-}
-/// Headers inside a chunk make small ones look better than the ratio; nothing this small can hurt.
-constexpr double ratio_slack = 65536.0;
 /// Tiles up to this many bytes are taken whatever the size of the image.
 constexpr double harmless_tile_bytes = 64.0 * 1024 * 1024;
-
-/// A table of chunks that does not fit into the file fails with the first chunk, before any memory is taken for it, and
-/// every further chunk would fail the same way: no need to try millions of them.
-constexpr std::size_t give_up = 64;
-
-void check_plausible(const ExrFile& file, int part, const exr_chunk_info_t& chunk) {
-    const auto compression = static_cast<exr_compression_t>(chunk.compression);
-    const double limit = static_cast<double>(chunk.packed_size) * largest_ratio(compression) +
-                         (compression == EXR_COMPRESSION_NONE ? 0.0 : ratio_slack);
-    if (static_cast<double>(chunk.unpacked_size) > limit) {
-        file.fail(fmt::format("{}{}chunk {} claims {} bytes of pixels but holds {}; {}", file.part_label(part),
-                              file.part_label(part).empty() ? "" : ": ", chunk.idx, chunk.unpacked_size,
-                              chunk.packed_size, again));
-    }
-}
-
-[[noreturn]] void fail_incomplete(const ExrFile& file, int part, std::size_t missing, std::int64_t total,
-                                  const std::string& why) {
-    const std::string label = file.part_label(part);
-    if (static_cast<std::uint64_t>(total) * sizeof(std::uint64_t) > file.size()) {
-        file.fail(fmt::format("{}claims {} chunks of pixels, more than its {} bytes can hold; {}",
-                              label.empty() ? "" : label + ": ", total, file.size(), again));
-    }
-    file.fail(fmt::format("incomplete: {}{}{} of {} chunks of pixels missing or damaged ({}); {}",
-                          label.empty() ? "" : label + ": ", missing < give_up ? "" : "at least ", missing, total, why,
-                          again));
-}
 
 } // namespace
 
@@ -232,6 +183,10 @@ std::uint64_t ExrFile::size() const {
     return state_->size;
 }
 
+std::uint64_t ExrFile::bytes_read() const {
+    return state_->bytes_read.load(std::memory_order_relaxed);
+}
+
 int ExrFile::part_count() const {
     return state_->parts;
 }
@@ -306,63 +261,6 @@ void check_part(const ExrFile& file, int part) {
                                   window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, again));
         }
     }
-}
-
-std::vector<exr_chunk_info_t> full_resolution_chunks(const ExrFile& file, int part) {
-    exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
-    exr_attr_box2i_t window{};
-    exr_get_storage(file.context(), part, &storage);
-    exr_get_data_window(file.context(), part, &window);
-
-    std::vector<exr_chunk_info_t> chunks;
-    std::size_t missing = 0;
-    std::string why;
-    const auto take = [&](exr_result_t result, const exr_chunk_info_t& chunk) {
-        if (result != EXR_ERR_SUCCESS) {
-            if (missing++ == 0) {
-                why = file.last_message();
-                why = why.empty() ? exr_get_default_error_message(result) : why;
-            }
-            return;
-        }
-        check_plausible(file, part, chunk);
-        chunks.push_back(chunk);
-    };
-
-    if (storage == EXR_STORAGE_TILED) {
-        std::int32_t tile_width = 0;
-        std::int32_t tile_height = 0;
-        if (exr_get_tile_sizes(file.context(), part, 0, 0, &tile_width, &tile_height) != EXR_ERR_SUCCESS ||
-            tile_width < 1 || tile_height < 1) {
-            file.fail(fmt::format("the tile description is damaged ({}); {}", file.last_message(), again));
-        }
-        const std::int64_t across = (std::int64_t{window.max.x} - window.min.x) / tile_width + 1;
-        const std::int64_t down = (std::int64_t{window.max.y} - window.min.y) / tile_height + 1;
-        for (std::int64_t y = 0; y < down && missing < give_up; ++y) {
-            for (std::int64_t x = 0; x < across && missing < give_up; ++x) {
-                exr_chunk_info_t chunk{};
-                take(exr_read_tile_chunk_info(file.context(), part, static_cast<int>(x), static_cast<int>(y), 0, 0,
-                                              &chunk),
-                     chunk);
-            }
-        }
-        if (missing > 0) {
-            fail_incomplete(file, part, missing, across * down, why);
-        }
-        return chunks;
-    }
-    std::int32_t lines = 1;
-    if (exr_get_scanlines_per_chunk(file.context(), part, &lines) != EXR_ERR_SUCCESS || lines < 1) {
-        file.fail(fmt::format("the header is damaged ({}); {}", file.last_message(), again));
-    }
-    for (std::int64_t y = window.min.y; y <= window.max.y && missing < give_up; y += lines) {
-        exr_chunk_info_t chunk{};
-        take(exr_read_scanline_chunk_info(file.context(), part, static_cast<int>(y), &chunk), chunk);
-    }
-    if (missing > 0) {
-        fail_incomplete(file, part, missing, (std::int64_t{window.max.y} - window.min.y) / lines + 1, why);
-    }
-    return chunks;
 }
 
 } // namespace clshade

@@ -11,7 +11,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace clshade {
 
@@ -29,6 +28,8 @@ class ExrFile {
     [[nodiscard]] exr_const_context_t context() const;
     [[nodiscard]] const std::string& name() const;
     [[nodiscard]] std::uint64_t size() const;
+    /// Taken from the file so far, the header included.
+    [[nodiscard]] std::uint64_t bytes_read() const;
     [[nodiscard]] int part_count() const;
     /// "" for the part of a single-part file, else "part 'name'" or "part 2".
     [[nodiscard]] std::string part_label(int part) const;
@@ -47,10 +48,6 @@ class ExrFile {
 
 /// Refuses what cannot be shaded or honestly lie in the file: deep parts, subsampled channels, absurd tiles.
 void check_part(const ExrFile& file, int part);
-
-/// The chunks of a part's full-resolution level, in order of the file's table. Throws RuntimeFailure when a chunk is
-/// missing, lies outside the file, or claims more pixels than its bytes can hold under its compression.
-[[nodiscard]] std::vector<exr_chunk_info_t> full_resolution_chunks(const ExrFile& file, int part);
 
 /// "none", "zip", "dwaa", ...
 [[nodiscard]] std::string_view compression_name(exr_compression_t compression);

@@ -1,10 +1,15 @@
-// Pixels of one part into float planes. Two ways in: our own for uncompressed, RLE and ZIP data, which unpacks the
-// needed channels of a chunk straight into their planes, and the OpenEXR library for every other compression.
+// Private to host/images: pixels of one part into float planes, chunk by chunk. Two ways in: our own for uncompressed,
+// RLE and ZIP data, which unpacks the needed channels of a chunk straight into their planes, and the OpenEXR library
+// for every other compression.
 #pragma once
 
+#include "host/base/plane_slab.h"
 #include "host/gbuffer/image_layout.h"
+#include "host/images/chunk_grid.h"
 #include "host/images/exr_file.h"
 
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,25 +17,51 @@ namespace clshade {
 
 /// A channel of a part and the plane it goes to.
 struct PlaneTarget {
-    std::string channel;    ///< its name inside the part
-    float* plane = nullptr; ///< sample of the frame's top left pixel
+    std::string channel; ///< its name inside the part
+    int plane = 0;
 };
 
-/// The planes cover `window`; rows are `pitch` floats apart.
-struct PlaneGeometry {
-    Window window;
-    int pitch = 0;
+/// One part of a file and what is wanted of it.
+struct PartSource {
+    const ExrFile* file = nullptr;
+    int part = 0;
+    ChunkGrid grid;
+    exr_compression_t compression = EXR_COMPRESSION_NONE;
+    std::vector<PlaneTarget> targets;
 };
 
-/// Is this one for decode_chunks?
-[[nodiscard]] bool has_own_decoder(exr_compression_t compression);
+/// The rows being filled: row 0 of the planes is line y_min of `area`, pixel 0 of a row is x_min.
+struct Band {
+    Window area;
+    PlaneSlab* planes = nullptr;
 
-/// Uncompressed, RLE, ZIPS and ZIP. Throws RuntimeFailure naming the file, the part and the lines that are damaged.
-void decode_chunks(const ExrFile& file, int part, const std::vector<PlaneTarget>& targets,
-                   const PlaneGeometry& geometry, int threads);
+    /// Pixel (x, y) of the file's coordinates, inside `area`.
+    [[nodiscard]] float* at(int plane, int x, int y) const {
+        return planes->row(plane, y - area.y_min).data() + (x - area.x_min);
+    }
+};
 
-/// Any compression, by the OpenEXR library. Sets its process-wide number of threads.
-void decode_with_library(const ExrFile& file, int part, const std::vector<PlaneTarget>& targets,
-                         const PlaneGeometry& geometry, int threads);
+/// Decodes chunks of one part. Safe to call from several threads, each with chunks of its own; memory for a chunk or
+/// two is kept for every thread.
+class PartDecoder {
+  public:
+    PartDecoder() = default;
+    virtual ~PartDecoder() = default;
+    PartDecoder(const PartDecoder&) = delete;
+    PartDecoder& operator=(const PartDecoder&) = delete;
+    PartDecoder(PartDecoder&&) = delete;
+    PartDecoder& operator=(PartDecoder&&) = delete;
+
+    /// Chunks first to last - 1, of which the lines inside the band are stored. Throws RuntimeFailure naming the file,
+    /// the part and the chunk that is damaged.
+    virtual void decode(std::size_t first, std::size_t last, const Band& band) = 0;
+    /// Unpacked bytes of a whole chunk.
+    [[nodiscard]] virtual std::size_t chunk_bytes() const = 0;
+};
+
+/// Uncompressed, RLE, ZIPS and ZIP by ourselves, the rest by the OpenEXR library. `source` must outlive the decoder.
+[[nodiscard]] std::unique_ptr<PartDecoder> make_decoder(const PartSource& source);
+[[nodiscard]] std::unique_ptr<PartDecoder> make_chunk_decoder(const PartSource& source);
+[[nodiscard]] std::unique_ptr<PartDecoder> make_library_decoder(const PartSource& source);
 
 } // namespace clshade

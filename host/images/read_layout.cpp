@@ -1,5 +1,6 @@
 #include "host/base/error.h"
 #include "host/images/channel_names.h"
+#include "host/images/chunk_grid.h"
 #include "host/images/exr_file.h"
 #include "host/images/image_reader.h"
 #include "host/images/manifest_file.h"
@@ -139,7 +140,7 @@ SampleType sample_type_of(exr_pixel_type_t type) {
 
 PartInfo read_part(const ExrFile& file, int index, ImageLayout& layout) {
     check_part(file, index);
-    static_cast<void>(full_resolution_chunks(file, index));
+    check_chunks(file, index);
 
     PartInfo part;
     exr_attr_box2i_t window{};

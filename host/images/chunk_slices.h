@@ -1,0 +1,34 @@
+// Private to host/images: where the samples of the wanted channels lie in an unpacked chunk.
+#pragma once
+
+#include "host/images/part_decoder.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace clshade {
+
+/// A wanted channel. Samples lie in the file line by line, and within a line channel by channel in the header's order.
+struct ChunkSlice {
+    SampleType type = SampleType::half;
+    std::size_t sample_offset = 0; ///< bytes per pixel of the channels before it
+    int plane = 0;
+    std::size_t target = 0; ///< index into PartSource::targets
+};
+
+struct ChunkSlices {
+    std::vector<ChunkSlice> slices; ///< in the file's order
+    std::size_t pixel_bytes = 0;    ///< of all channels of the part
+};
+
+/// Throws RuntimeFailure for a channel that the part does not have.
+[[nodiscard]] ChunkSlices find_slices(const PartSource& source);
+
+/// The lines of a chunk that lie in the band, counted from the chunk's first.
+struct LineRange {
+    int first = 0;
+    int last = -1;
+};
+[[nodiscard]] LineRange lines_in_band(const Window& chunk, const Band& band);
+
+} // namespace clshade
