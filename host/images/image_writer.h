@@ -53,16 +53,6 @@ void check_exr_settings(const ExrSettings& settings);
 /// Do both names lead to one existing file (through links, too)? Then writing `b` would destroy `a`. Never throws.
 [[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) noexcept;
 
-/// Writes to a temporary name in the same folder, forces it to the medium, checks that it reads back whole, renames; on
-/// any failure (full disk included) the temporary is removed and RuntimeFailure names the file and the reason.
-/// Returns how many values were too large for half and were stored as +-65504. Adds `software` unless given. The bytes
-/// depend on the image and the settings only, not on the number of threads (OpenEXR's is set process-wide).
-std::uint64_t write_exr(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings);
-
-/// sRGB preview of channels R, G, B (and A; colours are divided by it): 8 bits, clamped, data window only. Temporary
-/// and errors as for write_exr.
-void write_png(const std::filesystem::path& file, const OutputImage& image);
-
 /// What became of a file.
 struct WrittenFile {
     std::uint64_t clamped = 0;      ///< values too large for half, stored as +-65504
@@ -72,7 +62,19 @@ struct WrittenFile {
     bool existed = false;           ///< Replace::no and somebody else was there first: nothing was written
 };
 
+/// With `no` a file that has the target's name by then stays, whoever made it: the check and the renaming are one step.
 enum class Replace { yes, no };
+
+/// Writes to a temporary name in the same folder, forces it to the medium, checks that it reads back whole, renames; on
+/// any failure (full disk included) the temporary is removed and RuntimeFailure names the file and the reason. Adds
+/// `software` unless given, and the completion stamp (completion.h). The bytes depend on the image and the settings
+/// only; work is spread over the TBB arena of the caller, within `isolate`. Several threads may write files at once.
+WrittenFile write_exr(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings,
+                      Replace replace = Replace::yes);
+
+/// sRGB preview of channels R, G, B (and A; colours are divided by it): 8 bits, clamped, data window only. Carries the
+/// job attribute and the completion stamp as text. Temporary and errors as for write_exr.
+WrittenFile write_png(const std::filesystem::path& file, const OutputImage& image, Replace replace = Replace::yes);
 
 /// An EXR file written in bands of rows, from the top to the bottom. The bytes depend on picture and settings only, not
 /// on bands or threads; work is spread over the TBB arena of the caller, within `isolate`. Never half-written: see

@@ -20,7 +20,8 @@ namespace clshade {
 
 namespace {
 
-constexpr std::size_t buffer_size = std::size_t{1} << 20;
+/// Longer pieces go straight to the file.
+constexpr std::size_t buffer_size = std::size_t{1} << 17U;
 
 // A signal handler can reach nothing but statics, may not lock, and may call little more than unlink. So the names of
 // the temporaries stand in a fixed table. A name is written while its slot is `claimed`, and read while `active`.
@@ -193,12 +194,47 @@ void TemporaryFile::close() {
     }
 }
 
+void TemporaryFile::committed() {
+    forget_temporary(slot_);
+    slot_ = -1;
+}
+
 void TemporaryFile::commit() {
     if (::rename(path_.c_str(), final_.c_str()) != 0) {
         fail(errno);
     }
-    forget_temporary(slot_);
-    slot_ = -1;
+    committed();
+}
+
+bool TemporaryFile::commit_new() {
+    if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, final_.c_str(), RENAME_NOREPLACE) == 0) {
+        committed();
+        return true;
+    }
+    if (errno == EEXIST) {
+        return false;
+    }
+    if (errno != EINVAL && errno != ENOSYS) {
+        fail(errno);
+    }
+    // A file system that cannot (NFS): a second name, which must not exist. The destructor removes the first one.
+    if (::link(path_.c_str(), final_.c_str()) == 0) {
+        return true;
+    }
+    if (errno == EEXIST) {
+        return false;
+    }
+    // One that knows no second names (FAT): an empty file holds the place.
+    const int place = ::open(final_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (place < 0) {
+        if (errno == EEXIST) {
+            return false;
+        }
+        fail(errno);
+    }
+    ::close(place);
+    commit();
+    return true;
 }
 
 StagedFolder::StagedFolder(const std::filesystem::path& target, std::span<const std::string> names)

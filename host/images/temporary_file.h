@@ -33,9 +33,12 @@ class TemporaryFile {
     void close();
     /// Renames to the target, which it replaces. Call after close().
     void commit();
+    /// The same, unless something has the target's name: false then. Atomic, whoever else tries.
+    [[nodiscard]] bool commit_new();
 
   private:
     void flush();
+    void committed();
     void write_out(std::span<const std::byte> bytes);
     [[noreturn]] void fail(int error) const;
 

@@ -1,6 +1,8 @@
 #include "host/base/error.h"
+#include "host/images/completion.h"
 #include "host/images/image_writer.h"
 #include "host/images/pack.h"
+#include "host/images/stamp.h"
 #include "host/images/temporary_file.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -9,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <exception>
 #include <new>
 #include <string_view>
@@ -69,9 +72,32 @@ std::vector<unsigned char> encode(const std::string& name, const std::vector<std
     return encoded;
 }
 
+/// Puts the job and the stamp before the last chunk. Returns the hash.
+std::uint64_t complete(std::vector<unsigned char>& png, const OutputImage& image) {
+    constexpr std::size_t end_chunk = 12; // IEND: length, name, checksum
+    std::string texts;
+    if (const auto job = image.attributes.find(job_attribute); job != image.attributes.end()) {
+        texts += png_text_chunk(job_attribute, job->second);
+    }
+    const std::size_t stamp_at = texts.size();
+    Stamp stamp;
+    texts += png_text_chunk(completion_attribute, stamp_text(stamp));
+    stamp.bytes = png.size() + texts.size();
+    texts.replace(stamp_at, std::string::npos, png_text_chunk(completion_attribute, stamp_text(stamp)));
+    std::fill(texts.end() - 4, texts.end(), '\0'); // the checksum follows from the hash
+    const auto texts_at = png.insert(png.end() - end_chunk, texts.begin(), texts.end());
+    StreamHash hash;
+    hash.add(std::as_bytes(std::span(png)));
+    stamp.hash = hash.value();
+    const std::string chunk = png_text_chunk(completion_attribute, stamp_text(stamp));
+    std::copy(chunk.begin(), chunk.end(), texts_at + static_cast<std::ptrdiff_t>(stamp_at));
+    return stamp.hash;
+}
+
 } // namespace
 
-void write_png(const std::filesystem::path& file, const OutputImage& image) {
+WrittenFile write_png(const std::filesystem::path& file, const OutputImage& image, Replace replace) {
+    const auto start = std::chrono::steady_clock::now();
     const std::string name = file.string();
     const std::array<const OutputChannel*, 3> colours{find_channel(image, "R"), find_channel(image, "G"),
                                                       find_channel(image, "B")};
@@ -87,11 +113,21 @@ void write_png(const std::filesystem::path& file, const OutputImage& image) {
     }
     try {
         const std::vector<std::uint8_t> pixels = display_pixels(colours, alpha, width, height);
-        const std::vector<unsigned char> encoded = encode(name, pixels, width, height, alpha != nullptr ? 4 : 3, image);
+        std::vector<unsigned char> encoded = encode(name, pixels, width, height, alpha != nullptr ? 4 : 3, image);
+        WrittenFile written;
+        written.hash = complete(encoded, image);
+        written.bytes = encoded.size();
         TemporaryFile temporary(file);
         temporary.write(std::as_bytes(std::span(encoded)));
         temporary.close();
-        temporary.commit();
+        if (replace == Replace::yes) {
+            temporary.commit();
+        } else {
+            written.existed = !temporary.commit_new();
+        }
+        const std::chrono::duration<double, std::milli> busy = std::chrono::steady_clock::now() - start;
+        written.busy_milliseconds = busy.count();
+        return written;
     } catch (const std::bad_alloc&) {
         throw RuntimeFailure(fmt::format("{}: not enough memory to write it; free memory", name));
     }
