@@ -3,6 +3,7 @@
 
 #include "host/gbuffer/frame.h"
 #include "host/gbuffer/image_layout.h"
+#include "host/gbuffer/visit_rows.h"
 #include "host/scene/scene.h"
 
 #include <optional>
@@ -32,7 +33,12 @@ struct RecoveredView {
 /// Throws UsageError if fewer than 16 usable pixels, or all in one plane without enough spread, or the fit is poor.
 [[nodiscard]] RecoveredView recover_view(const Frame& frame);
 
+/// The same for a picture whose planes are not in memory as a whole: `frame` has windows, roles and name, `rows` show
+/// position, depth and coverage (camera_frame in frame_builder.h). Bit-identical for any division into bands.
+[[nodiscard]] RecoveredView recover_view(const Frame& frame, const VisitRows& rows);
+
 /// Median distance in pixels between where the view sees the Position plane and where it is; negative without one.
 [[nodiscard]] double reprojection_error(const Frame& frame);
+[[nodiscard]] double reprojection_error(const Frame& frame, const VisitRows& rows);
 
 } // namespace clshade

@@ -1,6 +1,7 @@
 #include "host/base/error.h"
 #include "host/gbuffer/camera.h"
 #include "host/gbuffer/camera_geometry.h"
+#include "host/gbuffer/camera_samples.h"
 #include "host/gbuffer/camera_search.h"
 
 #include <fmt/format.h>
@@ -16,16 +17,7 @@ namespace clshade {
 
 namespace {
 
-constexpr std::size_t sample_target = 4000;
 constexpr std::size_t fewest_samples = 16;
-constexpr float depth_sentinel = 6e4F; // beyond: background
-
-/// A covered pixel and what its planes say.
-struct Sample {
-    glm::dvec2 pixel{0.0}; ///< centre, from the data window's corner
-    glm::dvec3 position{0.0};
-    double depth = 0.0; ///< 0 without a depth plane
-};
 
 [[noreturn]] void fail(const Frame& frame, const std::string& reason) {
     throw UsageError(fmt::format("{}: the camera cannot be recovered from Position: {}; write [camera] with "
@@ -34,92 +26,25 @@ struct Sample {
                                  frame.file, reason));
 }
 
-/// Is the position at this pixel that of a surface? `least_coverage` leaves out edges.
-std::optional<Sample> sample_at(const Frame& frame, int x, int y, float least_coverage) {
-    const RolePlanes& roles = frame.roles;
-    Sample sample;
-    if (roles.coverage != no_plane && !(frame.planes.at(roles.coverage, x, y) > least_coverage)) {
-        return std::nullopt;
-    }
-    if (roles.depth != no_plane) {
-        const float depth = frame.planes.at(roles.depth, x, y);
-        if (!(depth > 0.0F) || !(depth < depth_sentinel)) {
-            return std::nullopt;
-        }
-        sample.depth = static_cast<double>(depth);
-    }
-    for (int i = 0; i < 3; ++i) {
-        sample.position[i] = static_cast<double>(frame.planes.at(roles.position[static_cast<std::size_t>(i)], x, y));
-    }
-    const double size = glm::length(sample.position);
-    if (!std::isfinite(size) || (roles.depth == no_plane && size == 0.0)) {
-        return std::nullopt;
-    }
-    sample.pixel = {x + 0.5, y + 0.5};
-    return sample;
-}
-
-/// Up to `sample_target` samples spread evenly over those found on every `step`-th pixel of every `step`-th row.
-std::vector<Sample> samples_on_lattice(const Frame& frame, int step, float least_coverage) {
-    std::vector<Sample> all;
-    for (int y = step / 2; y < frame.planes.height(); y += step) {
-        for (int x = step / 2; x < frame.planes.width(); x += step) {
-            if (const auto sample = sample_at(frame, x, y, least_coverage)) {
-                all.push_back(*sample);
-            }
-        }
-    }
-    if (all.size() <= sample_target) {
-        return all;
-    }
-    std::vector<Sample> some;
-    for (std::size_t i = 0; i < sample_target; ++i) {
-        some.push_back(all[i * all.size() / sample_target]);
-    }
-    return some;
-}
-
-/// Samples of whole pixels if there are enough of them, from a coarse lattice if that gives enough.
-std::vector<Sample> collect_samples(const Frame& frame) {
-    const double pixels = static_cast<double>(frame.planes.width()) * frame.planes.height();
-    const int coarse = std::max(1, static_cast<int>(std::sqrt(pixels / 65536.0)));
-    std::vector<Sample> best;
-    for (const float least_coverage : {0.999F, 0.0F}) {
-        for (const int step : {coarse, 1}) {
-            std::vector<Sample> samples = samples_on_lattice(frame, step, least_coverage);
-            if (samples.size() >= sample_target / 4) {
-                return samples;
-            }
-            if (samples.size() > best.size()) {
-                best = std::move(samples);
-            }
-        }
-        if (best.size() >= 200) { // enough; edges would add more doubt than knowledge
-            break;
-        }
-    }
-    return best;
-}
-
 /// Between world space and the centred, scaled positions that fits work in. Medians: outliers may be anywhere.
 struct Normalisation {
     glm::dvec3 centre{0.0};
     double scale = 1.0; ///< world units to one
 };
 
-Normalisation normalise(const std::vector<Sample>& samples) {
+Normalisation normalise(const std::vector<CameraSample>& samples) {
     Normalisation result;
     for (int i = 0; i < 3; ++i) {
         std::vector<double> values;
         values.reserve(samples.size());
-        for (const Sample& sample : samples) {
+        for (const CameraSample& sample : samples) {
             values.push_back(sample.position[i]);
         }
         result.centre[i] = median_of(values);
     }
     std::vector<double> distances;
     distances.reserve(samples.size());
-    for (const Sample& sample : samples) {
+    for (const CameraSample& sample : samples) {
         distances.push_back(glm::length(sample.position - result.centre));
     }
     const double distance = median_of(distances);
@@ -134,8 +59,8 @@ glm::dvec2 window_middle(const Frame& frame) {
 }
 
 /// Orthographic pictures do not tell how far away the camera is, nor near from far. Depth does, where there is depth.
-void place_orthographic(FittedCamera& camera, const std::vector<Sample>& samples, const std::vector<Sight>& sights,
-                        double scale, bool has_depth) {
+void place_orthographic(FittedCamera& camera, const std::vector<CameraSample>& samples,
+                        const std::vector<Sight>& sights, double scale, bool has_depth) {
     const auto forward = [&] { return glm::transpose(camera.rotation)[2]; };
     std::vector<double> along;
     std::vector<double> depths;
@@ -199,10 +124,14 @@ void check_certainty(const Frame& frame, const FoundCamera& found, const std::ve
 } // namespace
 
 RecoveredView recover_view(const Frame& frame) {
+    return recover_view(frame, whole_picture(frame));
+}
+
+RecoveredView recover_view(const Frame& frame, const VisitRows& rows) {
     if (frame.roles.position[0] == no_plane) {
         fail(frame, "there is no such plane");
     }
-    const std::vector<Sample> samples = collect_samples(frame);
+    const std::vector<CameraSample> samples = collect_samples(frame.data_window, rows);
     if (samples.size() < fewest_samples) {
         fail(frame, fmt::format("only {} pixels hold one, {} are needed", samples.size(), fewest_samples));
     }
@@ -212,7 +141,7 @@ RecoveredView recover_view(const Frame& frame) {
     }
     const glm::dvec2 middle = window_middle(frame);
     std::vector<Sight> sights;
-    for (const Sample& sample : samples) {
+    for (const CameraSample& sample : samples) {
         const glm::dvec2 offset = sample.pixel - middle;
         sights.push_back({{offset.x * frame.pixel_aspect, offset.y}, (sample.position - norm.centre) * norm.scale});
     }
@@ -246,12 +175,16 @@ RecoveredView recover_view(const Frame& frame) {
 }
 
 double reprojection_error(const Frame& frame) {
+    return reprojection_error(frame, whole_picture(frame));
+}
+
+double reprojection_error(const Frame& frame, const VisitRows& rows) {
     if (frame.roles.position[0] == no_plane || !frame.view.has_rays) {
         return -1.0;
     }
     constexpr double behind = 1e9; // pixels, for positions behind the camera
     std::vector<double> errors;
-    for (const Sample& sample : collect_samples(frame)) {
+    for (const CameraSample& sample : collect_samples(frame.data_window, rows)) {
         const auto seen = project(frame.view, sample.position);
         errors.push_back(seen ? glm::length(*seen - sample.pixel) : behind);
     }

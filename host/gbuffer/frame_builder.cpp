@@ -160,9 +160,9 @@ void turn_lights(Frame& frame) {
     }
 }
 
-void recover_camera(Frame& frame, bool pose_known) {
+void recover_camera(Frame& frame, bool pose_known, const VisitRows& rows) {
     try {
-        const RecoveredView recovered = recover_view(frame);
+        const RecoveredView recovered = recover_view(frame, rows);
         frame.view = recovered.view;
         frame.notes.push_back(fmt::format(
             "camera recovered from Position: median error {:.2g} px, 99 % within {:.2g} px, {} of {} samples, {}",
@@ -177,13 +177,22 @@ void recover_camera(Frame& frame, bool pose_known) {
     }
 }
 
-void check_camera(Frame& frame) {
-    const double error = reprojection_error(frame);
+void check_camera(Frame& frame, const VisitRows& rows) {
+    const double error = reprojection_error(frame, rows);
     if (error > 1.0) {
         frame.warnings.push_back(fmt::format("camera and Position disagree: median distance {:.2f} px; check [camera], "
                                              "or the space and unit of the position",
                                              error));
     }
+}
+
+void finish(FramePlan& plan, const VisitRows& rows) {
+    if (plan.recover_camera) {
+        recover_camera(plan.frame, plan.pose_known, rows);
+    } else {
+        check_camera(plan.frame, rows);
+    }
+    turn_lights(plan.frame);
 }
 
 } // namespace
@@ -244,15 +253,51 @@ void allocate_planes(FramePlan& plan) {
     plan.frame.planes = PlaneSlab(window.width(), window.height(), static_cast<int>(plan.channels.size()));
 }
 
-Frame finish_frame(FramePlan plan) {
-    Frame frame = std::move(plan.frame);
-    if (plan.recover_camera) {
-        recover_camera(frame, plan.pose_known);
-    } else {
-        check_camera(frame);
+std::vector<int> camera_planes(const FramePlan& plan) {
+    const Frame& frame = plan.frame;
+    const RolePlanes& roles = frame.roles;
+    std::vector<int> planes;
+    if (roles.position[0] == no_plane || (!plan.recover_camera && !frame.view.has_rays)) {
+        return planes;
     }
-    turn_lights(frame);
+    for (const PlaneIndex plane :
+         {roles.position[0], roles.position[1], roles.position[2], roles.depth, roles.coverage}) {
+        if (plane != no_plane && std::find(planes.begin(), planes.end(), plane) == planes.end()) {
+            planes.push_back(plane);
+        }
+    }
+    return planes;
+}
+
+Frame camera_frame(const FramePlan& plan) {
+    const std::vector<int> planes = camera_planes(plan);
+    const auto place_of = [&](PlaneIndex plane) {
+        const auto found = std::find(planes.begin(), planes.end(), plane);
+        return found == planes.end() ? no_plane : static_cast<PlaneIndex>(found - planes.begin());
+    };
+    Frame frame;
+    frame.file = plan.frame.file;
+    frame.data_window = plan.frame.data_window;
+    frame.display_window = plan.frame.display_window;
+    frame.pixel_aspect = plan.frame.pixel_aspect;
+    for (const int plane : planes) {
+        frame.plane_names.push_back(plan.frame.plane_names[static_cast<std::size_t>(plane)]);
+    }
+    const RolePlanes& roles = plan.frame.roles;
+    std::transform(roles.position.begin(), roles.position.end(), frame.roles.position.begin(), place_of);
+    frame.roles.depth = place_of(roles.depth);
+    frame.roles.coverage = place_of(roles.coverage);
     return frame;
+}
+
+Frame finish_frame(FramePlan plan) {
+    finish(plan, whole_picture(plan.frame));
+    return std::move(plan.frame);
+}
+
+Frame finish_frame(FramePlan plan, const VisitRows& rows) {
+    finish(plan, rows);
+    return std::move(plan.frame);
 }
 
 } // namespace clshade
