@@ -147,8 +147,9 @@ std::string RunStats::run_lines() const {
     const double wall = wall_milliseconds_;
     std::string text = fmt::format("frames: {} shaded", frames_);
     text += skipped_ > 0 ? fmt::format(", {} skipped\n", skipped_) : "\n";
-    text += fmt::format("wall time: {}, {:.2f} frames per second\n", seconds_text(wall),
-                        frames_ / wall * milliseconds_per_second);
+    text += fmt::format("wall time: {}, {:.2f} frames per second{}\n", seconds_text(wall),
+                        frames_ / wall * milliseconds_per_second,
+                        stages_.total() > wall ? " (stages of frames in flight overlap)" : "");
     text += fmt::format("read: {}\nwritten: {}\n", rate_of(bytes_read_, wall), rate_of(bytes_written_, wall));
     text += fmt::format("kernels: {:.1f} % of the wall time\n", 100.0 * kernel_milliseconds() / wall);
     if (const double alone = decode_encode_milliseconds(); alone > 0.0) {
