@@ -43,7 +43,7 @@ std::vector<std::string> split_path(std::string_view path, const SourceLocation&
     return keys;
 }
 
-/// TOML, or else a bare word such as oren_nayar or studio.hdr.
+/// TOML, or else a bare word such as oren_nayar, studio.hdr or camera.####.json.
 TomlValue parse_value(std::string_view text, const SourceLocation& where) {
     try {
         TomlTable tree = parse_toml(fmt::format("value = {}", text), {});
@@ -53,8 +53,8 @@ TomlValue parse_value(std::string_view text, const SourceLocation& where) {
             return value;
         }
     } catch (const UsageError&) {
-        const bool bare = !text.empty() && text.find_first_of("'\"[]{}=,#\n\r") == std::string_view::npos &&
-                          text.front() != ' ' && text.back() != ' ';
+        const bool bare = !text.empty() && text.find_first_of("'\"[]{}=,\n\r") == std::string_view::npos &&
+                          text.front() != ' ' && text.back() != ' ' && text.find(" #") == std::string_view::npos;
         if (bare) {
             return {std::string(text), where};
         }
