@@ -64,6 +64,8 @@ class BatchListener {
     virtual void finished(const FrameJob& job, const FrameOutcome& outcome) = 0;
     /// False: no further frames; run_batch throws the failure on.
     virtual bool failed(const FrameJob& job, const std::exception_ptr& failure) = 0;
+    /// What is being done, for people; called by any thread.
+    virtual void doing(const FrameJob& /*job*/, const std::string& /*what*/) {}
     /// Asked often, by any thread: true ends the run. Frames in flight are discarded.
     [[nodiscard]] virtual bool interrupted() const { return false; }
 };

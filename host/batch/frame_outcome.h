@@ -1,7 +1,7 @@
 // What became of a frame.
 #pragma once
 
-#include "host/batch/stage_times.h"
+#include "host/base/stage_times.h"
 #include "host/gbuffer/frame.h"
 #include "host/shading/shader.h"
 

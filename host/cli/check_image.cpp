@@ -1,8 +1,9 @@
 #include "host/cli/check_image.h"
 
 #include "host/base/error.h"
-#include "host/cli/frame_input.h"
-#include "host/cli/frame_output.h"
+#include "host/batch/frame_input.h"
+#include "host/batch/frame_output.h"
+#include "host/cli/chosen_scene.h"
 #include "host/gbuffer/environment_binding.h"
 #include "host/images/image_writer.h"
 
@@ -37,14 +38,14 @@ PlaneSlab in_corner(const PlaneSlab& planes, int width, int height) {
 
 CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, std::uint64_t max_memory,
                             int threads) {
-    const ChosenScene chosen = choose_scene(scene);
+    const RunScene chosen = choose_scene(scene);
     PlannedInput planned = plan_input(file, chosen.scene, scene.view);
     CheckInput input;
     if (chosen.scene.environment) { // before the pixels, which may be many
         input.environment = read_environment(chosen.scene, max_memory);
         input.warnings = input.environment->warnings;
     }
-    LoadedFrame loaded = load_frame(std::move(planned), chosen.scene, threads);
+    LoadedFrame loaded = load_frame(std::move(planned));
     if (input.environment) {
         attach_environment(loaded.frame, chosen.scene, input.environment->image, input.environment->maps);
     }

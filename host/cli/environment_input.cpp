@@ -2,7 +2,6 @@
 
 #include "host/base/error.h"
 #include "host/cli/environment_file.h"
-#include "host/environment/sh.h"
 
 #include <fmt/format.h>
 
@@ -27,17 +26,6 @@ std::vector<std::string> reading_warnings(const std::string& file, const LatLong
 }
 
 } // namespace
-
-std::string EnvironmentInput::description() const {
-    const glm::dvec3 colour = mean();
-    const std::string size =
-        image ? fmt::format("{}x{} pixels", image->width, image->height) : std::string("pre-filtered");
-    return fmt::format("{}, mean radiance ({:.4g}, {:.4g}, {:.4g})", size, colour.r, colour.g, colour.b);
-}
-
-glm::dvec3 EnvironmentInput::mean() const {
-    return image ? mean_radiance(*image) : maps->mean;
-}
 
 EnvironmentInput read_environment(const Scene& scene, std::uint64_t max_memory) {
     EnvironmentInput input;

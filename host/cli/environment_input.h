@@ -2,8 +2,7 @@
 #pragma once
 
 #include "host/cli/progress.h"
-#include "host/environment/filtered_set.h"
-#include "host/environment/lat_long.h"
+#include "host/environment/environment_input.h"
 #include "host/gbuffer/frame.h"
 #include "host/scene/scene.h"
 #include "host/shading/shader.h"
@@ -17,20 +16,6 @@
 #include <vector>
 
 namespace clshade::cli {
-
-/// An environment in memory. A picture, or maps that were pre-filtered before (then `image` is null).
-struct EnvironmentInput {
-    std::string name; ///< as the scene writes it; "built-in studio"
-    std::string hash; ///< of the picture's texels
-    std::shared_ptr<const LatLong> image;
-    std::shared_ptr<const FilteredSet> maps; ///< null until the picture has been filtered
-    std::vector<std::string> warnings;       ///< of what was done to the picture while it was read
-
-    /// "1024x512 pixels, mean radiance (0.5, 0.5, 0.5)".
-    [[nodiscard]] std::string description() const;
-    /// Of the picture over the sphere, without the scene's intensity.
-    [[nodiscard]] glm::dvec3 mean() const;
-};
 
 /// Reads what the scene names: a picture, a set of maps, or nothing for the built-in studio. A picture that takes more
 /// than `max_memory` bytes (0: no limit) is halved, and refused where the scene shows it as background. The scene must

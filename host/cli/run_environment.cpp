@@ -1,9 +1,6 @@
 #include "host/cli/run_environment.h"
 
-#include "host/cli/stopwatch.h"
-#include "host/gbuffer/environment_binding.h"
-
-#include <utility>
+#include "host/base/stopwatch.h"
 
 namespace clshade::cli {
 
@@ -37,16 +34,6 @@ std::string RunEnvironment::prefilter(Shader& shader, Progress& progress, StageT
     failed_ = false;
     stages.add(stage, watch.lap());
     return report.from_cache ? "from the cache" : "built";
-}
-
-void RunEnvironment::attach(Frame& frame) const {
-    if (input_) {
-        attach_environment(frame, *scene_, input_->image, input_->maps);
-    }
-}
-
-std::vector<std::string> RunEnvironment::take_warnings() {
-    return input_ ? std::exchange(input_->warnings, {}) : std::vector<std::string>{};
 }
 
 } // namespace clshade::cli

@@ -21,15 +21,11 @@ class RunEnvironment {
     /// After this frames can be attached. Where the maps come from, "built" or "from the cache"; empty if they were
     /// there. Throws as prefilter_environment does.
     std::string prefilter(Shader& shader, Progress& progress, StageTimes& stages);
-    /// Joins the environment to a finished frame. Throws as attach_environment does.
-    void attach(Frame& frame) const;
 
     /// Reading or filtering has thrown: no other frame could do better.
     [[nodiscard]] bool has_failed() const { return failed_; }
     /// What was read; null before, and without an environment.
     [[nodiscard]] const EnvironmentInput* input() const { return input_ ? &*input_ : nullptr; }
-    /// What was done to the picture; told once.
-    [[nodiscard]] std::vector<std::string> take_warnings();
 
   private:
     const Scene* scene_;

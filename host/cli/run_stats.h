@@ -1,8 +1,8 @@
 // Where the time of a run went (--runstats, -v, JSON).
 #pragma once
 
+#include "host/base/stage_times.h"
 #include "host/batch/frame_outcome.h"
-#include "host/batch/stage_times.h"
 #include "host/shading/shader.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,5 @@
 #include "host/cli/signals.h"
 
-#include "host/base/error.h"
 #ifdef CLSHADE_IMAGES
 #include "host/images/image_writer.h"
 #endif
@@ -13,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 
 namespace clshade::cli {
 
@@ -22,7 +22,18 @@ namespace {
 std::atomic<const char*> text_temporary{nullptr};
 static_assert(std::atomic<const char*>::is_always_lock_free);
 
-// Only async-signal-safe calls in here.
+// The signal that a run was asked to stop by (0: none), whether a run stops by itself, and the clock of its grace.
+std::atomic<int> stop_signal{0};
+std::atomic<bool> graceful{false};
+std::atomic<timer_t> grace{};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<timer_t>::is_always_lock_free);
+constexpr long grace_nanoseconds = 800'000'000;
+
+ExitCode exit_code_of(int signal) {
+    return signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated;
+}
+
+// Only async-signal-safe calls in these.
 extern "C" void discard_and_exit(int signal) {
 #ifdef CLSHADE_IMAGES
     remove_temporaries();
@@ -30,7 +41,29 @@ extern "C" void discard_and_exit(int signal) {
     if (const char* path = text_temporary.load(); path != nullptr) {
         unlink(path);
     }
-    _exit(static_cast<int>(signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated));
+    _exit(static_cast<int>(exit_code_of(signal)));
+}
+
+extern "C" void stop_or_exit(int signal) {
+    int none = 0;
+    if (!graceful.load() || !stop_signal.compare_exchange_strong(none, signal)) {
+        discard_and_exit(signal);
+    }
+    itimerspec after{};
+    after.it_value.tv_nsec = grace_nanoseconds;
+    timer_settime(grace.load(), 0, &after, nullptr);
+}
+
+extern "C" void end_of_grace(int /*signal*/) {
+    discard_and_exit(stop_signal.load());
+}
+
+void handle(int signal, void (*handler)(int)) {
+    struct sigaction action {};
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART; // a run that stops by itself must not fail in a read
+    sigemptyset(&action.sa_mask);
+    sigaction(signal, &action, nullptr);
 }
 
 // Writes everything or says why not (errno).
@@ -61,11 +94,35 @@ void write_in_place(const std::filesystem::path& file, std::string_view text, co
 } // namespace
 
 void install_signal_handlers() {
-    struct sigaction action {};
-    action.sa_handler = discard_and_exit;
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    handle(SIGINT, stop_or_exit);
+    handle(SIGTERM, stop_or_exit);
+}
+
+GracefulStop::GracefulStop() {
+    handle(SIGALRM, end_of_grace);
+    sigevent event{};
+    event.sigev_notify = SIGEV_SIGNAL;
+    event.sigev_signo = SIGALRM;
+    timer_t timer{};
+    // Without a clock the first signal ends the process at once.
+    if (timer_create(CLOCK_MONOTONIC, &event, &timer) == 0) {
+        grace = timer;
+        graceful = true;
+    }
+}
+
+GracefulStop::~GracefulStop() {
+    if (graceful.exchange(false)) {
+        timer_delete(grace.load());
+    }
+}
+
+bool GracefulStop::requested() const noexcept {
+    return stop_signal.load(std::memory_order_relaxed) != 0;
+}
+
+ExitCode GracefulStop::exit_code() const noexcept {
+    return requested() ? exit_code_of(stop_signal.load()) : ExitCode::ok;
 }
 
 void write_text_file(const std::filesystem::path& file, std::string_view text) {

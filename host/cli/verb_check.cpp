@@ -1,4 +1,5 @@
 #include "host/base/error.h"
+#include "host/base/stopwatch.h"
 #include "host/cli/check_frame.h"
 #include "host/cli/check_image.h"
 #include "host/cli/check_suite.h"
@@ -8,7 +9,6 @@
 #include "host/cli/report_json.h"
 #include "host/cli/run_stats.h"
 #include "host/cli/session.h"
-#include "host/cli/stopwatch.h"
 #include "host/cli/verb.h"
 
 #include <CLI/CLI.hpp>

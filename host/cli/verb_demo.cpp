@@ -1,7 +1,9 @@
 #include "host/base/error.h"
+#include "host/batch/frame_output.h"
+#include "host/cli/chosen_scene.h"
 #include "host/cli/log_level.h"
 #include "host/cli/report_json.h"
-#include "host/cli/shade_frame.h"
+#include "host/cli/shade_run.h"
 #include "host/cli/signals.h"
 #include "host/cli/verb.h"
 #include "host/demo/demo_gbuffer.h"
@@ -10,7 +12,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <cmath>
@@ -129,41 +130,21 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
 
     SceneOptions scene_options;
     scene_options.file = scene_file.string();
-    const ChosenScene scene = choose_scene(scene_options);
-    ShadeSettings settings;
-    settings.threads = options.common.host_threads();
-    settings.exr.threads = settings.threads;
-    RunEnvironment environment(scene.scene, options.common.max_memory);
-    RunStats stats;
-    for (const FrameJob& job : jobs) {
-        const FrameOutcome outcome = shade_frame(job, scene, environment, settings, session, progress);
-        stats.add(outcome.stages);
-        stats.add(outcome.kernels);
-        report.add({{"frame", *job.number},
-                    {"input", job.input.string()},
-                    {"output", job.output.string()},
-                    {"preview", job.preview.string()},
-                    {"stage_ms", stages_json(outcome.stages)},
-                    {"pixels", static_cast<std::int64_t>(outcome.width) * outcome.height},
-                    {"nonfinite", outcome.counts.nonfinite},
-                    {"warnings", outcome.warnings}});
-        for (const std::string& warning : outcome.warnings) {
-            spdlog::warn("frame {}: {}", *job.number, warning);
-        }
-        progress.step();
-    }
-    progress.clear();
-    if (!options.common.quiet) {
+    const RunScene scene = choose_scene(scene_options);
+    const BatchSettings settings = batch_settings(options.common);
+    ShadeRun run(options.common, scene, settings, session, progress, report, {.tell_frames = false});
+    const ExitCode code = run.run(jobs);
+    if (!options.common.quiet && code == ExitCode::ok) {
         const std::string last = fmt::format("{:04d}", frames);
         fmt::print("{} frames of {} on {}/{}\n\n{}\n"
                    "G-buffers  {}/gbuffer.0001.exr to {}\nscene      {}, {}/{}\nshaded     {}/shaded.0001.exr to {}\n"
                    "previews   {}/shaded.0001.png to {}\n\n"
                    "Again, by hand:\n  clshade shade '{}/gbuffer.####.exr' -o '{}/again.####.exr' --scene {}\n",
-                   frames, options.size, session.info().platform, session.info().name, stats.text(), folder.string(),
-                   last, scene_file.string(), folder.string(), demo_environment, folder.string(), last, folder.string(),
-                   last, folder.string(), folder.string(), scene_file.string());
+                   frames, options.size, session.info().platform, session.info().name, run.stats().text(),
+                   folder.string(), last, scene_file.string(), folder.string(), demo_environment, folder.string(), last,
+                   folder.string(), last, folder.string(), folder.string(), scene_file.string());
     }
-    return ExitCode::ok;
+    return code;
 }
 
 } // namespace

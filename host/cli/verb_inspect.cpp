@@ -1,8 +1,9 @@
 #include "host/base/error.h"
+#include "host/cli/chosen_scene.h"
 #include "host/cli/environment_input.h"
-#include "host/cli/frame_input.h"
 #include "host/cli/log_level.h"
 #include "host/cli/pixel_survey.h"
+#include "host/cli/plan_text.h"
 #include "host/cli/report_json.h"
 #include "host/cli/table.h"
 #include "host/cli/verb.h"
@@ -242,7 +243,7 @@ ExitCode inspect(const InspectOptions& options, JsonReport& report) {
     if (options.input.empty()) {
         throw UsageError("inspect: INPUT is missing; write `clshade inspect INPUT`");
     }
-    const ChosenScene scene = choose_scene(options.scene);
+    const RunScene scene = choose_scene(options.scene);
     const ImageLayout layout = read_layout(options.input);
     show(options, header_text(layout)); // first of all, so that broken pixels do not hide a good header
     nlohmann::json result = json_of(layout);

@@ -1,14 +1,18 @@
 #include "host/base/error.h"
 #include "host/base/frame_range.h"
 #include "host/base/suggest.h"
+#include "host/batch/frame_output.h"
+#include "host/batch/update_check.h"
+#include "host/cli/chosen_scene.h"
+#include "host/cli/environment_input.h"
 #include "host/cli/log_level.h"
+#include "host/cli/plan_text.h"
 #include "host/cli/report_json.h"
-#include "host/cli/shade_frame.h"
+#include "host/cli/shade_run.h"
 #include "host/cli/verb.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <array>
 #include <memory>
@@ -37,8 +41,18 @@ struct ShadeOptions {
     bool dry_run = false;
 };
 
-ShadeSettings settings_of(const ShadeOptions& options) {
-    ShadeSettings settings;
+// "NAME" or "NAME:LEVEL" of --compression.
+void parse_compression(const std::string& text, ExrSettings& settings) {
+    const std::size_t colon = text.find(':');
+    settings.compression = text.substr(0, colon);
+    if (colon != std::string::npos) {
+        settings.level = parse_number("--compression level", text.substr(colon + 1), 0.0);
+    }
+    check_exr_settings(settings);
+}
+
+BatchSettings settings_of(const ShadeOptions& options) {
+    BatchSettings settings = batch_settings(options.common);
     for (const std::string& name : split_list(options.aovs)) {
         const std::size_t which = parse_choice("--aov", name, aov_names);
         settings.aovs.diffuse = settings.aovs.diffuse || which == 0;
@@ -53,9 +67,6 @@ ShadeSettings settings_of(const ShadeOptions& options) {
     settings.view = options.scene.view;
     settings.update_only = options.update_only;
     settings.no_clobber = options.no_clobber;
-    settings.dry_run = options.dry_run;
-    settings.threads = options.common.host_threads();
-    settings.exr.threads = settings.threads;
     return settings;
 }
 
@@ -103,164 +114,50 @@ std::vector<FrameJob> jobs_of(const ShadeOptions& options) {
     return chosen;
 }
 
-nlohmann::json json_of(const FrameJob& job) {
-    nlohmann::json result = {{"input", job.input.string()}, {"output", job.output.string()}};
-    result["frame"] = job.number ? nlohmann::json(*job.number) : nlohmann::json();
-    return result;
+// A PNG preview has no room for more than a picture.
+void refuse_what_png_cannot(const ShadeOptions& options) {
+    if (options.aovs.size() + options.keep.size() > 0 && is_png(options.output)) {
+        throw UsageError(
+            fmt::format("{}: a PNG preview has no room for --aov and --keep; write an .exr", options.output));
+    }
 }
 
-nlohmann::json json_of(const FrameJob& job, const FrameOutcome& outcome) {
-    nlohmann::json result = json_of(job);
-    nlohmann::json kernels = nlohmann::json::object();
-    for (const KernelTime& kernel : outcome.kernels) {
-        kernels[kernel.kernel] = kernels.value(kernel.kernel, 0.0) + kernel.milliseconds;
-    }
-    result["stage_ms"] = stages_json(outcome.stages);
-    result["kernel_ms"] = kernels;
-    result["pixels"] = static_cast<std::int64_t>(outcome.width) * outcome.height;
-    result["nonfinite"] = outcome.counts.nonfinite;
-    result["clamped"] = outcome.counts.clamped;
-    result["no_tangent"] = outcome.counts.no_tangent;
-    result["warnings"] = outcome.warnings;
-    return result;
-}
-
-std::string label_of(const FrameJob& job) {
-    return job.number ? fmt::format("frame {}: ", *job.number) : std::string();
-}
-
-// The loop over the frames of one run.
-class ShadeRun {
-  public:
-    ShadeRun(const ShadeOptions& options, JsonReport& report, std::vector<FrameJob> jobs)
-        : options_(options), report_(report), settings_(settings_of(options)), scene_(choose_scene(options.scene)),
-          environment_(scene_.scene, options.common.max_memory), dump_(options.dump_kernel, options.common.kernel_dir),
-          jobs_(std::move(jobs)), session_(options.common), progress_(options.common, static_cast<int>(jobs_.size())) {
-        settings_.kernel_dump = options.dump_kernel.empty() ? nullptr : &dump_;
-    }
-
-    ExitCode run() {
-        refuse_what_png_cannot();
-        require_environment(scene_.scene, settings_.aovs);
-        for (const FrameJob& job : jobs_) {
-            shade(job);
-            progress_.step();
-        }
-        progress_.clear();
-        if (options_.common.run_stats && !options_.dry_run) {
-            fmt::print("\n{}", stats_.text());
-        }
-        return result();
-    }
-
-  private:
-    void refuse_what_png_cannot() const {
-        const bool more = options_.aovs.size() + options_.keep.size() > 0;
-        if (more && is_png(options_.output)) {
-            throw UsageError(
-                fmt::format("{}: a PNG preview has no room for --aov and --keep; write an .exr", options_.output));
-        }
-    }
-
-    void shade(const FrameJob& job) {
+// -n: what would be done with each frame, in words. Reads headers and the environment's, writes nothing.
+ExitCode dry_run(const ShadeOptions& options, const std::vector<FrameJob>& jobs, const RunScene& scene,
+                 const BatchSettings& settings, JsonReport& report) {
+    Session session(options.common);
+    std::optional<EnvironmentInput> environment;
+    ExitCode code = ExitCode::ok;
+    for (const FrameJob& job : jobs) {
+        nlohmann::json result = {{"input", job.input.string()}, {"output", job.output.string()}};
+        result["frame"] = job.number ? nlohmann::json(*job.number) : nlohmann::json();
         try {
-            const FrameOutcome outcome = shade_frame(job, scene_, environment_, settings_, session_, progress_);
-            if (!outcome.skipped.empty()) {
-                report_.add(json_of(job), "skipped", outcome.skipped);
-            } else if (options_.dry_run) {
-                report_.add(json_of(job), "skipped", "dry run");
+            refuse_same_file(job.output, job.input);
+            std::string reason = reason_to_skip(job, scene, settings, job_identity(scene, settings));
+            if (!reason.empty()) {
+                fmt::print("would skip {}: {}\n", job.output.string(), reason);
             } else {
-                report_.set_device(session_.info());
-                report_.add(json_of(job, outcome));
-                stats_.add(outcome.stages);
-                stats_.add(outcome.kernels);
+                reason = "dry run";
+                const PlannedInput input = plan_input(job.input, scene.scene, settings.view, settings.keep, job.number);
+                if (scene.scene.environment && !environment) {
+                    environment = read_environment(scene.scene, options.common.max_memory);
+                }
+                fmt::print("{}", plan_text(input, job, scene, environment ? &*environment : nullptr, session.info()));
             }
-            tell(job, outcome);
+            report.add(std::move(result), "skipped", reason);
         } catch (const DeviceError&) {
-            throw; // no frame could do better
+            throw;
         } catch (const Error& error) {
-            if (!goes_on_after(job, error)) {
+            if (jobs.size() == 1) {
                 throw;
             }
+            report.add(std::move(result), "error", error.what());
+            fmt::print(stderr, "clshade: {}\n", error.what());
+            code = ExitCode::some_frames_failed;
         }
     }
-
-    // One frame's failure does not stop a sequence; a job of one frame fails with that frame's own error, and any job
-    // with the error of the environment, which all frames share.
-    bool goes_on_after(const FrameJob& job, const Error& error) {
-        const bool shared = environment_.has_failed();
-        const bool skip = options_.skip_bad_frames && !shared && error.exit_code() == ExitCode::runtime_failure;
-        report_.add(json_of(job), skip ? "skipped" : "error", error.what());
-        progress_.fail(label_of(job) + error.what());
-        if (shared || (jobs_.size() == 1 && !skip)) {
-            return false;
-        }
-        first_failure_ = failures_ == 0 ? error.exit_code() : first_failure_;
-        ++failures_;
-        skipped_bad_ += skip ? 1 : 0;
-        if (skip) {
-            spdlog::warn("{}skipped: {}", label_of(job), error.what());
-        } else {
-            fmt::print(stderr, "clshade: {}{}\n", label_of(job), error.what());
-        }
-        return true;
-    }
-
-    void tell(const FrameJob& job, const FrameOutcome& outcome) {
-        progress_.clear();
-        for (const std::string& warning : outcome.warnings) {
-            spdlog::warn("{}{}", label_of(job), warning);
-        }
-        if (options_.common.quiet) {
-            return;
-        }
-        if (!outcome.plan.empty()) {
-            fmt::print("{}", outcome.plan);
-        } else if (!outcome.skipped.empty()) {
-            fmt::print("{}{} skipped: {}\n", label_of(job), job.output.string(), outcome.skipped);
-        } else {
-            fmt::print("{}{} -> {}  {}x{}  {}\n", label_of(job), job.input.string(), job.output.string(), outcome.width,
-                       outcome.height, format_total(outcome));
-        }
-        std::fflush(stdout);
-    }
-
-    [[nodiscard]] std::string format_total(const FrameOutcome& outcome) const {
-        std::string text = fmt::format("{:.0f} ms", outcome.stages.total());
-        if (options_.common.verbosity > 0) {
-            std::string parts;
-            for (const auto& [stage, milliseconds] : outcome.stages.stages()) {
-                parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", stage, milliseconds);
-            }
-            text += fmt::format(" ({}{}{}{}{})", parts, outcome.build.empty() ? "" : "; kernel ", outcome.build,
-                                outcome.environment.empty() ? "" : "; environment ", outcome.environment);
-        }
-        return text;
-    }
-
-    [[nodiscard]] ExitCode result() const {
-        if (failures_ == 0) {
-            return ExitCode::ok;
-        }
-        const bool all = failures_ == jobs_.size() && skipped_bad_ == 0;
-        fmt::print(stderr, "clshade: {} of {} frames failed\n", failures_, jobs_.size());
-        return all ? first_failure_ : ExitCode::some_frames_failed;
-    }
-
-    const ShadeOptions& options_;
-    JsonReport& report_;
-    ShadeSettings settings_;
-    ChosenScene scene_;
-    RunEnvironment environment_;
-    KernelDump dump_;
-    std::vector<FrameJob> jobs_;
-    Session session_;
-    Progress progress_;
-    RunStats stats_;
-    std::size_t failures_ = 0;
-    std::size_t skipped_bad_ = 0;
-    ExitCode first_failure_ = ExitCode::ok;
-};
+    return code;
+}
 
 ExitCode shade(const ShadeOptions& options, JsonReport& report) {
     if (options.input.empty()) {
@@ -269,8 +166,19 @@ ExitCode shade(const ShadeOptions& options, JsonReport& report) {
     if (options.output.empty()) {
         throw UsageError("shade: -o OUTPUT is missing; write `clshade shade INPUT -o OUTPUT`");
     }
-    ShadeRun run(options, report, jobs_of(options));
-    return run.run();
+    const std::vector<FrameJob> jobs = jobs_of(options);
+    const BatchSettings settings = settings_of(options);
+    const RunScene scene = choose_scene(options.scene);
+    refuse_what_png_cannot(options);
+    require_environment(scene.scene, settings.aovs);
+    if (options.dry_run) {
+        return dry_run(options, jobs, scene, settings, report);
+    }
+    Session session(options.common);
+    Progress progress(options.common, static_cast<int>(jobs.size()));
+    ShadeRun run(options.common, scene, settings, session, progress, report,
+                 {options.skip_bad_frames, true, options.dump_kernel});
+    return run.run(jobs);
 }
 
 } // namespace

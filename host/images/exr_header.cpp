@@ -6,6 +6,7 @@
 #include "host/images/stamp.h"
 
 #include <ImfChannelList.h>
+#include <ImfIO.h>
 #include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace clshade {
 
@@ -45,21 +47,26 @@ Imath::Box2i box_of(const Window& window) {
     return {{window.x_min, window.y_min}, {window.x_max, window.y_max}};
 }
 
-} // namespace
-
-void MemoryStream::write(const char* bytes, int count) {
-    const auto size = static_cast<std::size_t>(std::max(count, 0));
-    if (bytes_.size() < position_ + size) {
-        bytes_.resize(position_ + size);
+/// A file in memory, for OpenEXR to write to.
+class MemoryStream final : public Imf::OStream {
+  public:
+    MemoryStream() : Imf::OStream("memory") {}
+    void write(const char* bytes, int count) override {
+        const auto size = static_cast<std::size_t>(std::max(count, 0));
+        bytes_.resize(std::max(bytes_.size(), position_ + size));
+        std::memcpy(bytes_.data() + position_, bytes, size);
+        position_ += size;
     }
-    std::memcpy(bytes_.data() + position_, bytes, size);
-    position_ += size;
-}
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t offset) override { position_ = static_cast<std::size_t>(offset); }
+    [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
 
-void MemoryStream::clear() {
-    bytes_.clear();
-    position_ = 0;
-}
+  private:
+    std::vector<std::byte> bytes_;
+    std::size_t position_ = 0;
+};
+
+} // namespace
 
 Imf::Compression compression_of(const ExrSettings& settings) {
     const auto* found = std::find_if(compressions.begin(), compressions.end(),
@@ -104,6 +111,10 @@ bool is_half(const OutputChannel& channel, const ExrSettings& settings) {
     return settings.half && !channel.force_float;
 }
 
+int block_rows(const ExrSettings& settings) {
+    return chunk_rows(compression_of(settings));
+}
+
 void check_exr_settings(const ExrSettings& settings) {
     static_cast<void>(compression_of(settings));
 }
@@ -145,7 +156,7 @@ ExrHead make_head(const OutputImage& image, const ExrSettings& settings) {
     // Writes the header and an empty table; without pixels there is nothing else in it.
     { const Imf::OutputFile file(stream, header, 0); }
     ExrHead head;
-    head.bytes = stream.bytes();
+    head.bytes = stream.take();
     const int rows = chunk_rows(header.compression());
     head.chunks = (image.data_window.height() + rows - 1) / rows;
     head.table = head.bytes.size() - static_cast<std::size_t>(head.chunks) * sizeof(std::uint64_t);

@@ -50,6 +50,10 @@ void check_output_path(const std::filesystem::path& file);
 /// Call before shading.
 void check_exr_settings(const ExrSettings& settings);
 
+/// Rows of a block of this compression: 1 to 256. Bands of rows that are written one after the other are multiples of
+/// it.
+[[nodiscard]] int block_rows(const ExrSettings& settings);
+
 /// Do both names lead to one existing file (through links, too)? Then writing `b` would destroy `a`. Never throws.
 [[nodiscard]] bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) noexcept;
 

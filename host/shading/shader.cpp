@@ -79,12 +79,12 @@ struct Constants {
 };
 
 void set_arguments(Kernel& kernel, const Buffer& planes, std::size_t plane_stride, const Buffer& result,
-                   std::size_t result_stride, const Constants& constants) {
+                   std::size_t result_stride, std::uint64_t first, const Constants& constants) {
     kernel.set_argument(0, planes);
     kernel.set_argument(1, static_cast<std::uint64_t>(plane_stride));
     kernel.set_argument(2, result);
     kernel.set_argument(3, static_cast<std::uint64_t>(result_stride));
-    kernel.set_argument(4, std::uint64_t{0}); // first pixel
+    kernel.set_argument(4, first);
     kernel.set_argument(5, constants.frame);
     kernel.set_argument(6, constants.lights);
     kernel.set_argument(7, constants.counts);
@@ -96,6 +96,26 @@ void set_arguments(Kernel& kernel, const Buffer& planes, std::size_t plane_strid
     }
 }
 
+/// Index of the first pixel that the planes hold among those of the whole picture.
+std::uint64_t first_pixel(const Frame& frame) {
+    return static_cast<std::uint64_t>(frame.first_row) * static_cast<std::uint64_t>(frame.planes.pitch());
+}
+
+/// Room for the outputs: what is at hand if it has the shape.
+PlaneSlab shaped_like(const Frame& frame, int outputs, PlaneSlab reused) {
+    const bool fits =
+        reused.width() == frame.planes.width() && reused.height() == frame.planes.height() && reused.count() == outputs;
+    return fits ? std::move(reused) : PlaneSlab(frame.planes.width(), frame.planes.height(), outputs);
+}
+
+/// Planes of single lights are added to, so they start at zero; all others are written.
+void clear_lights(PlaneSlab& result, const AovSelection& aovs) {
+    if (aovs.lights) {
+        const auto all = result.all();
+        std::fill(all.begin(), all.end(), 0.0F);
+    }
+}
+
 std::uint64_t frame_bytes(const Frame& frame, std::size_t outputs) {
     return static_cast<std::uint64_t>(frame.planes.width()) * static_cast<std::uint64_t>(frame.planes.height()) *
            (planes_read(frame).size() + outputs) * sizeof(float);
@@ -103,8 +123,8 @@ std::uint64_t frame_bytes(const Frame& frame, std::size_t outputs) {
 
 } // namespace
 
-PictureMemory::PictureMemory(Device& device, Frame& frame, int outputs)
-    : result(frame.planes.width(), frame.planes.height(), outputs),
+PictureMemory::PictureMemory(Device& device, Frame& frame, int outputs, PlaneSlab reused)
+    : result(shaped_like(frame, outputs, std::move(reused))),
       plane_buffer(device, std::as_writable_bytes(frame.planes.all()), Access::read),
       result_buffer(device, std::as_writable_bytes(result.all()), Access::read_write) {
     const auto start = Clock::now();
@@ -120,7 +140,7 @@ struct PreparedFrame::State {
           kernel(built, "shade"), inputs(static_cast<int>(clshade::planes_read(frame).size())), key(kernel_key(frame)),
           bytes(frame_bytes(frame, plane_names.size())), memory(std::move(place)) {
         set_arguments(kernel, memory->plane_buffer, frame.planes.stride(), memory->result_buffer,
-                      memory->result.stride(), constants);
+                      memory->result.stride(), first_pixel(frame), constants);
     }
 
     Program program;
@@ -294,20 +314,21 @@ std::size_t Shader::band_pixels(const Frame& frame, std::size_t outputs) const {
     return std::min<std::size_t>(all, groups * plane_alignment);
 }
 
-ShadedImage Shader::shade_in_bands(Frame& frame, std::size_t band) {
+ShadedImage Shader::shade_in_bands(Frame& frame, std::size_t band, PlaneSlab reused) {
     const auto start = Clock::now();
     const MaterialsSource materials = materials_source(frame);
     Program program = program_for(frame, materials);
     ShadedImage image;
     image.plane_names = output_plane_names(frame, options_.aovs);
-    image.planes = PlaneSlab(frame.planes.width(), frame.planes.height(), static_cast<int>(image.plane_names.size()));
+    image.planes = shaped_like(frame, static_cast<int>(image.plane_names.size()), std::move(reused));
+    clear_lights(image.planes, options_.aovs);
     Constants constants(*device_, frame, maps_for(frame, materials));
     const auto inputs = static_cast<std::size_t>(frame.planes.count());
     const std::size_t outputs = image.plane_names.size();
     Buffer planes(*device_, inputs * band * sizeof(float), Access::read);
     Buffer result(*device_, outputs * band * sizeof(float), Access::read_write);
     Kernel kernel(program, "shade");
-    set_arguments(kernel, planes, band, result, band, constants);
+    set_arguments(kernel, planes, band, result, band, 0, constants);
 
     double kernel_milliseconds = 0.0;
     for (std::size_t first = 0; first < frame.planes.padded_pixels(); first += band) {
@@ -316,10 +337,10 @@ ShadedImage Shader::shade_in_bands(Frame& frame, std::size_t band) {
         const std::size_t pitch = band * sizeof(float);
         planes.write_rows(std::as_bytes(frame.planes.all()).data() + first * sizeof(float),
                           frame.planes.stride() * sizeof(float), pitch, row, inputs);
-        // Planes of single lights are added to, so they start at zero like the host's.
+        // As they start on the host: see clear_lights.
         std::byte* host_result = std::as_writable_bytes(image.planes.all()).data() + first * sizeof(float);
         result.write_rows(host_result, image.planes.stride() * sizeof(float), pitch, row, outputs);
-        kernel.set_argument(4, static_cast<std::uint64_t>(first));
+        kernel.set_argument(4, first_pixel(frame) + first);
         kernel.launch(pixels / static_cast<std::size_t>(lanes_), work_group);
         kernel_milliseconds += kernel.wait_milliseconds();
         result.read_rows(host_result, image.planes.stride() * sizeof(float), pitch, row, outputs);
@@ -335,12 +356,16 @@ ShadedImage Shader::shade_in_bands(Frame& frame, std::size_t band) {
     return image;
 }
 
-ShadedImage Shader::shade(Frame& frame) {
-    const std::size_t band = band_pixels(frame, output_plane_names(frame, options_.aovs).size());
+ShadedImage Shader::shade(Frame& frame, PlaneSlab reused) {
+    const std::size_t outputs = output_plane_names(frame, options_.aovs).size();
+    const std::size_t band = band_pixels(frame, outputs);
     if (band < frame.planes.padded_pixels() || options_.pixels_per_launch > 0) {
-        return shade_in_bands(frame, band);
+        return shade_in_bands(frame, band, std::move(reused));
     }
-    PreparedFrame prepared = prepare(frame);
+    PlaneSlab result = shaped_like(frame, static_cast<int>(outputs), std::move(reused));
+    clear_lights(result, options_.aovs);
+    PreparedFrame prepared =
+        prepare(frame, std::make_shared<PictureMemory>(*device_, frame, static_cast<int>(outputs), std::move(result)));
     prepared.launch();
     static_cast<void>(prepared.wait_milliseconds());
     return prepared.take();

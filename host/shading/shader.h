@@ -43,8 +43,8 @@ struct ShadedImage {
 /// must outlive it. Kernels that are compared with each other work on one: time depends on which pages they got.
 struct PictureMemory {
     /// Copies the planes to the device where it has memory of its own; `outputs` planes to write. Throws
-    /// RuntimeFailure.
-    PictureMemory(Device& device, Frame& frame, int outputs);
+    /// RuntimeFailure. `reused`: a slab for the result if it has the right shape, whatever it holds.
+    PictureMemory(Device& device, Frame& frame, int outputs, PlaneSlab reused = {});
 
     PlaneSlab result;
     Buffer plane_buffer;
@@ -92,9 +92,10 @@ class Shader {
   public:
     Shader(Device& device, SourceSet kernels, ProgramCache cache, ShaderOptions options);
 
-    /// Shades a frame, in bands where it does not fit the device or the memory limit. Throws RuntimeFailure. The
-    /// result does not depend on bands. An environment must have its maps (Prefilter; std::invalid_argument).
-    [[nodiscard]] ShadedImage shade(Frame& frame);
+    /// Shades a frame, or the rows of it that its planes hold, in bands where it does not fit the device or the memory
+    /// limit. Throws RuntimeFailure. The result does not depend on bands. An environment must have its maps (Prefilter;
+    /// std::invalid_argument). `reused`: a slab for the result if it has the right shape, whatever it holds.
+    [[nodiscard]] ShadedImage shade(Frame& frame, PlaneSlab reused = {});
     /// For benches: the whole frame in one launch. Throws RuntimeFailure if it does not fit.
     [[nodiscard]] PreparedFrame prepare(Frame& frame);
     /// The same in memory that others of the same planes use too, in turns. Throws std::invalid_argument where the
@@ -116,7 +117,7 @@ class Shader {
     [[nodiscard]] const Program& program_for(const Frame& frame, const MaterialsSource& materials);
     /// Pixels of one launch: all of them, or as many as the device and --max-mem can hold.
     [[nodiscard]] std::size_t band_pixels(const Frame& frame, std::size_t outputs) const;
-    [[nodiscard]] ShadedImage shade_in_bands(Frame& frame, std::size_t band);
+    [[nodiscard]] ShadedImage shade_in_bands(Frame& frame, std::size_t band, PlaneSlab reused);
 
     Device* device_;
     SourceSet kernels_;

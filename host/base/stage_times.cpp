@@ -1,4 +1,4 @@
-#include "host/batch/stage_times.h"
+#include "host/base/stage_times.h"
 
 #include <algorithm>
 

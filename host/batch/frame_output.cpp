@@ -1,19 +1,15 @@
-#include "host/cli/frame_output.h"
+#include "host/batch/frame_output.h"
 
 #include "host/base/error.h"
 #include "host/base/hash.h"
-#include "host/cli/options.h"
-#include "host/images/image_reader.h"
+#include "host/images/completion.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <fstream>
-#include <string_view>
 
-namespace clshade::cli {
+namespace clshade {
 
 bool is_png(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
@@ -23,27 +19,6 @@ bool is_png(const std::filesystem::path& file) {
 }
 
 namespace {
-
-// A PNG is whole if it ends with the chunk IEND (length 0, name, checksum).
-bool is_whole_png(const std::filesystem::path& file) {
-    constexpr std::string_view end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
-    std::ifstream stream(file, std::ios::binary);
-    std::array<char, 12> tail{};
-    stream.seekg(-static_cast<std::streamoff>(tail.size()), std::ios::end);
-    stream.read(tail.data(), tail.size());
-    return stream.good() && std::string_view(tail.data(), tail.size()) == end;
-}
-
-bool is_whole(const std::filesystem::path& file) {
-    if (is_png(file)) {
-        return is_whole_png(file);
-    }
-    try {
-        return !read_layout(file).channels.empty();
-    } catch (const RuntimeFailure&) {
-        return false;
-    }
-}
 
 void add_matrices(OutputImage& image, const LoadedFrame& loaded) {
     // The picture is seen through the input's camera; what its header says of it is still true.
@@ -75,8 +50,8 @@ glm::dmat4 world_to_camera(const glm::dmat3& camera_to_world, const glm::dvec3& 
     return matrix;
 }
 
-OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, const ChosenScene& scene,
-                        const EnvironmentInput* environment, const DeviceInfo& device) {
+OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, const RunScene& scene,
+                        const EnvironmentInput* environment, const DeviceInfo& device, const std::string& job) {
     OutputImage image;
     image.data_window = loaded.frame.data_window;
     image.display_window = loaded.frame.display_window;
@@ -96,6 +71,7 @@ OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, co
     image.attributes = {
         {"software", fmt::format("clshade {}", CLSHADE_VERSION)},
         {"clshade/version", CLSHADE_VERSION},
+        {job_attribute, job},
         {"clshade/device", device.platform + "/" + device.name},
         {"clshade/driver", device.driver},
         {"clshade/scene", scene.name},
@@ -113,26 +89,9 @@ OutputImage make_output(const LoadedFrame& loaded, const ShadedImage& shaded, co
     return image;
 }
 
-std::uint64_t write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings) {
-    if (is_png(file)) {
-        write_png(file, image);
-        return 0;
-    }
-    return write_exr(file, image, settings);
-}
-
-bool is_up_to_date(const std::filesystem::path& output, const std::vector<std::filesystem::path>& sources) {
-    std::error_code error;
-    const auto written = std::filesystem::last_write_time(output, error);
-    if (error) {
-        return false;
-    }
-    for (const std::filesystem::path& source : sources) {
-        if (!source.empty() && (std::filesystem::last_write_time(source, error) > written || error)) {
-            return false;
-        }
-    }
-    return is_whole(output);
+WrittenFile write_output(const std::filesystem::path& file, const OutputImage& image, const ExrSettings& settings,
+                         Replace replace) {
+    return is_png(file) ? write_png(file, image, replace) : write_exr(file, image, settings, replace);
 }
 
 void refuse_same_file(const std::filesystem::path& output, const std::filesystem::path& source) {
@@ -141,13 +100,4 @@ void refuse_same_file(const std::filesystem::path& output, const std::filesystem
     }
 }
 
-void parse_compression(const std::string& text, ExrSettings& settings) {
-    const std::size_t colon = text.find(':');
-    settings.compression = text.substr(0, colon);
-    if (colon != std::string::npos) {
-        settings.level = parse_number("--compression level", text.substr(colon + 1), 0.0);
-    }
-    check_exr_settings(settings);
-}
-
-} // namespace clshade::cli
+} // namespace clshade
