@@ -28,8 +28,7 @@ ProgressMode resolved(const CommonOptions& options) {
 std::size_t terminal_width() {
     constexpr std::size_t usual = 80;
     winsize size{};
-    // POSIX offers no other way to ask.
-    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0; // NOLINT(*-vararg)
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
     return known ? size.ws_col : usual;
 }
 

@@ -21,30 +21,29 @@ bool continues_character(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-// What stands behind the bar.
-std::string words_behind_bar(const ProgressState& state) {
+std::size_t characters(std::string_view text) {
+    return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_character));
+}
+
+// What stands behind the bar: as many of the numbers as fit into `room`, and what is being done, cut.
+std::string words_behind_bar(const ProgressState& state, std::size_t room) {
+    const bool many_frames = state.total > 1 && state.frames && state.rate > 0.0;
     std::vector<std::string> words;
     if (state.total > 1) {
-        words.push_back(fmt::format("{}/{}", state.done, state.total));
-        if (state.frames) {
-            words.push_back(rate_text(state.rate));
-        }
-        words.push_back(time_left_text(seconds_left(state)));
+        words = {fmt::format("{}/{}", state.done, state.total), state.frames ? rate_text(state.rate) : "",
+                 time_left_text(seconds_left(state))};
     }
-    if (state.total > 1 && state.frames && state.rate > 0.0) {
-        words.push_back(state.slowest.empty() ? "" : "slowest: " + state.slowest);
-    } else {
-        words.push_back(state.what);
+    if (many_frames && !state.slowest.empty()) {
+        words.push_back("slowest: " + state.slowest);
     }
     std::string text;
     for (const std::string& word : words) {
+        if (!word.empty() && characters(text) + 2 + characters(word) > room) {
+            return text;
+        }
         text += word.empty() ? "" : "  " + word;
     }
-    return text;
-}
-
-std::size_t characters(std::string_view text) {
-    return text.size() - static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_character));
+    return many_frames || state.what.empty() ? text : one_line_of(text + "  " + state.what, room);
 }
 
 } // namespace
@@ -118,8 +117,10 @@ std::string progress_words(const ProgressState& state) {
 }
 
 std::string bar_line(const ProgressState& state, std::size_t width) {
-    const std::string words = fmt::format("] {:3} %{}", state.percent, words_behind_bar(state));
-    const std::size_t beside = characters(words) + 1;
+    const std::string percent = fmt::format("] {:3} %", state.percent);
+    const std::size_t least = 1 + fewest_cells + characters(percent);
+    const std::string words = percent + words_behind_bar(state, width - std::min(width, least));
+    const std::size_t beside = 1 + characters(words);
     const std::size_t cells = std::clamp(width - std::min(width, beside), fewest_cells, most_cells);
     const std::size_t full = cells * static_cast<std::size_t>(std::clamp(state.percent, 0, 100)) / 100;
     return one_line_of('[' + std::string(full, '#') + std::string(cells - full, '.') + words, width);

@@ -48,7 +48,8 @@ struct ProgressState {
 /// "185 of 500 (37 %), 8.3 fps, 0:38 left", as far as it is known.
 [[nodiscard]] std::string progress_words(const ProgressState& state);
 /// "[####......]  37 %  185/500  8.3 fps  0:38 left  slowest: write", or what is being done where there is one step
-/// only or no rate yet. At most `width` characters of UTF-8: the bar gets shorter first, then the end is cut.
+/// only or no rate yet. At most `width` characters of UTF-8: the bar gets shorter first, then the numbers at the
+/// end are left out, what is being done is cut.
 [[nodiscard]] std::string bar_line(const ProgressState& state, std::size_t width);
 /// The first `width` characters of UTF-8 text, with '?' for control characters.
 [[nodiscard]] std::string one_line_of(std::string_view text, std::size_t width);

@@ -22,7 +22,6 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
-using ::testing::Not;
 
 const std::string wipe = "\r\033[K";
 
@@ -79,7 +78,10 @@ TEST(ProgressText, BarOfManyFrames) {
     EXPECT_EQ(bar_line(halfway(), 63), "[###.......]  37 %  185/500  8.3 fps  0:38 left  slowest: write")
         << "as wide as it takes";
     EXPECT_EQ(bar_line(halfway(), 64), "[####.......]  37 %  185/500  8.3 fps  0:38 left  slowest: write");
-    EXPECT_EQ(bar_line(halfway(), 40), "[###.......]  37 %  185/500  8.3 fps  0:");
+    EXPECT_EQ(bar_line(halfway(), 40), "[#####.........]  37 %  185/500  8.3 fps");
+    EXPECT_EQ(bar_line(halfway(), 62), "[#########................]  37 %  185/500  8.3 fps  0:38 left")
+        << "no half words";
+    EXPECT_EQ(bar_line(halfway(), 10), "[###......");
     EXPECT_EQ(bar_line(halfway(), 0), "");
 }
 
@@ -281,6 +283,15 @@ TEST(Progress, NeverGoesBack) {
     EXPECT_EQ(run.out, "ALF_PROGRESS 40%\nALF_PROGRESS 45%\nALF_PROGRESS 50%\nALF_PROGRESS 55%\n");
 }
 
+TEST(Progress, NeitherDoesTheBar) {
+    const Printed run = printed(ProgressMode::bar, 2, [](Progress& progress) {
+        progress.update("shading 1", 0.8);
+        progress.update("reading 2", 0.0);
+    });
+    EXPECT_THAT(run.err, HasSubstr("  40 %  0/2  shading 1" + wipe));
+    EXPECT_THAT(run.err, HasSubstr("  40 %  0/2  reading 2" + wipe));
+}
+
 TEST(Progress, NoneAndNoTerminalAreSilent) {
     for (const ProgressMode mode : {ProgressMode::none, ProgressMode::automatic}) {
         const Printed run = printed(mode, 3, three_frames);
@@ -397,6 +408,7 @@ TEST_F(Logging, AndProgressComeFromManyThreads) {
     constexpr int frames = 50;
     const auto shade = [](Progress& progress) {
         std::vector<std::jthread> workers;
+        workers.reserve(threads);
         for (int worker = 0; worker < threads; ++worker) {
             workers.emplace_back([&progress, worker] {
                 for (int frame = 0; frame < frames; ++frame) {
