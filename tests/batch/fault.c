@@ -2,6 +2,7 @@
  *
  *   disk:N:ERROR[:once]   after N calls that write below CLSHADE_FAULT_FOLDER: ENOSPC, EIO, EDQUOT
  *   kill:N                SIGKILL in place of the call N + 1 that writes there
+ *   stop:N                SIGSTOP before that call
  *   device:N              after N kernels: CL_DEVICE_NOT_AVAILABLE, from every call that needs the device
  *   count:0               nothing, but the calls that write are counted
  *
@@ -23,7 +24,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-enum kind { none, disk, killing, device };
+enum kind { none, disk, killing, stopping, device };
 static enum kind kind = none;
 static long after = 0;
 static int error_number = ENOSPC;
@@ -45,6 +46,7 @@ __attribute__((constructor)) static void begin(void) {
     }
     kind = strcmp(name, "disk") == 0     ? disk
            : strcmp(name, "kill") == 0   ? killing
+           : strcmp(name, "stop") == 0   ? stopping
            : strcmp(name, "device") == 0 ? device
                                          : none;
     error_number = strcmp(error, "EIO") == 0 ? EIO : strcmp(error, "EDQUOT") == 0 ? EDQUOT : ENOSPC;
@@ -73,6 +75,12 @@ static int strikes(enum kind of) {
     if (kind == killing) {
         kill(getpid(), SIGKILL);
         pause();
+    }
+    if (kind == stopping) {
+        if (number == after) {
+            kill(getpid(), SIGSTOP);
+        }
+        return 0;
     }
     errno = error_number;
     return 1;

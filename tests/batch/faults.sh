@@ -1,7 +1,8 @@
 #!/bin/sh
 # Calls that fail when they should not, by fault.c: the device is lost in mid-run; the disk is full or broken from some call
 # on, or for one call; the process is killed in place of each single call that changes the output folder. Frames are named
-# and counted, outputs are whole or not there, nothing else is left, -u does the rest.
+# and counted, outputs are whole or not there, nothing else is left, -u does the rest. Last, an input changes between
+# reading and writing.
 #
 #   faults.sh PROGRAM [STEP=1]      every STEPth call; needs a C compiler
 set -eu
@@ -13,7 +14,13 @@ step=${2:-1}
 needs "${CC:-cc}" gcc
 
 dir=$(mktemp -d)
-trap 'rm -rf "$dir"' EXIT
+victim=
+stop() {
+    trap - EXIT
+    if [ -n "$victim" ]; then kill -9 "$victim" 2>/dev/null || true; fi
+    rm -rf "$dir"
+}
+trap stop EXIT
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
@@ -118,4 +125,27 @@ while [ "$at" -lt "$count" ]; do
     completed "killed at call $at"
     at=$((at + step))
 done
+say "an input is replaced while its frame is in hand"
+empty
+cp "$dir/in.0001.exr" "$dir/first.exr"
+shade "$dir/out" stop:0 &
+running=$!
+victim=
+until [ -n "$victim" ] && grep -qs '^State:.*stopped' "/proc/$victim/status"; do
+    kill -0 "$running" 2>/dev/null || fail "ended before it was halted: $(cat "$dir/said")"
+    sleep 0.05
+    victim=$(pgrep -nf "shade $dir/in" || true)
+done
+cp "$dir/in.0002.exr" "$dir/new.exr" # read is the old one; the new one is older than the output
+mv "$dir/new.exr" "$dir/in.0001.exr"
+sleep 0.1
+kill -CONT "$victim"
+code_of wait "$running"
+victim=
+code_of shade "$dir/out" "" -u
+expect 0 "-u after a replaced input: $(cat "$dir/said")"
+mv "$dir/out/out.0001.exr" "$dir/now.exr"
+shade "$dir/out" "" --frames 1 || fail "the new frame"
+cmp "$dir/now.exr" "$dir/out/out.0001.exr" || fail "-u takes a picture of the old input for one of the new"
+mv "$dir/first.exr" "$dir/in.0001.exr"
 say "passed"
