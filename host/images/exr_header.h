@@ -4,28 +4,11 @@
 #include "host/images/image_writer.h"
 
 #include <ImfHeader.h>
-#include <ImfIO.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace clshade {
-
-/// A file in memory, for OpenEXR to write to.
-class MemoryStream final : public Imf::OStream {
-  public:
-    MemoryStream() : Imf::OStream("memory") {}
-    void write(const char* bytes, int count) override;
-    std::uint64_t tellp() override { return position_; }
-    void seekp(std::uint64_t offset) override { position_ = static_cast<std::size_t>(offset); }
-    [[nodiscard]] const std::vector<std::byte>& bytes() const { return bytes_; }
-    void clear();
-
-  private:
-    std::vector<std::byte> bytes_;
-    std::size_t position_ = 0;
-};
 
 /// Throws UsageError as check_exr_settings does.
 [[nodiscard]] Imf::Compression compression_of(const ExrSettings& settings);

@@ -6,8 +6,10 @@
 #include "host/images/pack.h"
 
 #include <ImfFrameBuffer.h>
+#include <ImfIO.h>
 #include <ImfOutputFile.h>
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -22,6 +24,37 @@ char* base_of(const void* first, int x, int y, std::size_t sample, std::size_t r
                          static_cast<std::uintptr_t>(std::int64_t{y} * static_cast<std::int64_t>(row));
     return reinterpret_cast<char*>(address); // NOLINT(performance-no-int-to-ptr): see above
 }
+
+/// Takes what comes after the header: the one chunk of the picture.
+class ChunkStream final : public Imf::OStream {
+  public:
+    explicit ChunkStream(std::span<std::byte> out) : Imf::OStream("memory"), out_(out) {}
+
+    /// The header ends here.
+    void begin_chunk() { chunk_at_ = end_ = position_; }
+    /// Of the chunk.
+    [[nodiscard]] std::size_t size() const { return end_ - chunk_at_; }
+
+    void write(const char* bytes, int count) override {
+        const auto size = static_cast<std::size_t>(std::max(count, 0));
+        if (chunk_at_ != 0 && position_ >= chunk_at_) { // else the header, or the table that is put in at the end
+            if (size > out_.size() - std::min(out_.size(), position_ - chunk_at_)) {
+                throw RuntimeFailure("internal: a chunk grew in compression");
+            }
+            std::memcpy(out_.data() + (position_ - chunk_at_), bytes, size);
+        }
+        position_ += size;
+        end_ = std::max(end_, position_);
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t offset) override { position_ = static_cast<std::size_t>(offset); }
+
+  private:
+    std::span<std::byte> out_;
+    std::size_t position_ = 0;
+    std::size_t chunk_at_ = 0;
+    std::size_t end_ = 0;
+};
 
 class LibraryEncoder final : public ChunkEncoder {
   public:
@@ -50,19 +83,14 @@ class LibraryEncoder final : public ChunkEncoder {
             }
         }
         const Window window{window_.x_min, rows.y, window_.x_max, rows.y + rows.rows - 1};
-        stream_.clear();
-        std::size_t head = 0;
+        ChunkStream stream({out, 8 + static_cast<std::size_t>(rows.rows) * shape_.row_bytes});
         {
-            Imf::OutputFile file(stream_, plain_header(window, channels_, settings_), 0);
-            head = stream_.bytes().size();
+            Imf::OutputFile file(stream, plain_header(window, channels_, settings_), 0);
+            stream.begin_chunk();
             file.setFrameBuffer(buffer);
             file.writePixels(rows.rows);
         }
-        encoded.bytes = stream_.bytes().size() - head;
-        if (encoded.bytes > 8 + static_cast<std::size_t>(rows.rows) * shape_.row_bytes) {
-            throw RuntimeFailure("internal: a chunk grew in compression");
-        }
-        std::memcpy(out, stream_.bytes().data() + head, encoded.bytes);
+        encoded.bytes = stream.size();
         return encoded;
     }
 
@@ -77,7 +105,6 @@ class LibraryEncoder final : public ChunkEncoder {
     std::vector<OutputChannel> channels_; ///< names and types
     ExrSettings settings_;
     std::vector<std::vector<std::uint16_t>> halves_;
-    MemoryStream stream_;
 };
 
 } // namespace
