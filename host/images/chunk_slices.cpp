@@ -34,7 +34,7 @@ ChunkSlices find_slices(const PartSource& source) {
         const SampleType type = sample_type(channel.pixel_type);
         for (std::size_t target = 0; target < source.targets.size(); ++target) {
             if (!found[target] && source.targets[target].channel == channel.name.str) {
-                result.slices.push_back({type, result.pixel_bytes, source.targets[target].plane, target});
+                result.slices.push_back({type, result.pixel_bytes, source.targets[target].plane});
                 found[target] = true;
             }
         }

@@ -13,7 +13,6 @@ struct ChunkSlice {
     SampleType type = SampleType::half;
     std::size_t sample_offset = 0; ///< bytes per pixel of the channels before it
     int plane = 0;
-    std::size_t target = 0; ///< index into PartSource::targets
 };
 
 struct ChunkSlices {

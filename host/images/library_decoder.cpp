@@ -1,7 +1,6 @@
 #include "host/base/error.h"
 #include "host/images/chunk_slices.h"
 #include "host/images/part_decoder.h"
-#include "host/images/unpack.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
@@ -22,6 +21,8 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace clshade {
 
@@ -104,22 +105,17 @@ bool same_part(const Imf::Header& header, const PartSource& source) {
     });
 }
 
-Imf::PixelType pixel_type(SampleType type) {
-    switch (type) {
-    case SampleType::half:
-        return Imf::HALF;
-    case SampleType::uint32:
-        return Imf::UINT;
-    default:
-        return Imf::FLOAT;
-    }
-}
+/// A channel of a tile.
+struct TilePlane {
+    const PlaneTarget* target = nullptr;
+    std::vector<float> pixels;
+};
 
 /// The library's reader of one thread. It keeps a chunk of its own, which only one thread at a time can use.
 class LibraryReader {
   public:
-    explicit LibraryReader(const PartSource& source)
-        : source_(source), stream_(*source.file), input_(stream_, 0, false) {
+    LibraryReader(const PartSource& source, std::span<const PlaneTarget> targets)
+        : source_(source), targets_(targets), stream_(*source.file), input_(stream_, 0, false) {
         if (source.part >= input_.parts() || !same_part(input_.header(source.part), source)) {
             source.file->fail("changed while it was being read; run again when its writer has finished");
         }
@@ -130,70 +126,110 @@ class LibraryReader {
         }
     }
 
-    /// Samples of lines first to last of a chunk, in their own types: plane after plane, line after line.
-    void read(std::size_t chunk, const LineRange& lines, const ChunkSlices& layout) {
+    void read(std::size_t chunk, const Band& band) {
         const Window area = source_.grid.area(chunk);
-        const auto width = static_cast<std::size_t>(area.width());
-        // Of tiles, all lines arrive.
-        const int first = tiles_ ? 0 : lines.first;
-        const int last = tiles_ ? area.height() - 1 : lines.last;
-        first_line_ = first;
-        width_ = width;
-        samples_per_channel_ = width * static_cast<std::size_t>(last - first + 1);
-        samples_.resize(samples_per_channel_ * layout.slices.size());
-        Imf::FrameBuffer buffer;
-        for (std::size_t i = 0; i < layout.slices.size(); ++i) {
-            const ChunkSlice& slice = layout.slices[i];
-            const std::size_t bytes = bytes_of(slice.type);
-            // The library addresses sample (x, y) as base + x * bytes + y * width * bytes; of tiles from their corner,
-            // of lines in the file's coordinates: the base may lie outside the memory, so that it is reckoned as a
-            // number.
-            const std::int64_t corner =
-                tiles_ ? 0 : std::int64_t{area.y_min + first} * area.width() + std::int64_t{area.x_min};
-            const std::uintptr_t base = reinterpret_cast<std::uintptr_t>(plane(i)) -
-                                        static_cast<std::uintptr_t>(corner * static_cast<std::int64_t>(bytes));
-            buffer.insert(source_.targets[slice.target].channel,
-                          Imf::Slice(pixel_type(slice.type),
-                                     reinterpret_cast<char*>(base), // NOLINT(performance-no-int-to-ptr): see above
-                                     bytes, width * bytes, 1, 1, 0.0, tiles_ != nullptr, tiles_ != nullptr));
+        const LineRange lines = lines_in_band(area, band);
+        if (!tiles_) {
+            aim_at(band);
+            lines_->readPixels(area.y_min + lines.first, area.y_min + lines.last);
+            return;
         }
-        if (tiles_) {
-            tiles_->setFrameBuffer(buffer);
-            tiles_->readTile(static_cast<int>(chunk % source_.grid.across),
-                             static_cast<int>(chunk / source_.grid.across));
-        } else {
-            lines_->setFrameBuffer(buffer);
-            lines_->readPixels(area.y_min + first, area.y_min + last);
+        if (lines.first == 0 && lines.last == area.height() - 1) {
+            aim_at(band);
+            read_tile(chunk);
+            return;
         }
-    }
-
-    /// What read() left: the samples of a line of the chunk.
-    [[nodiscard]] const std::byte* line(std::size_t slice, int line, SampleType type) const {
-        const auto row = static_cast<std::size_t>(line - first_line_);
-        return reinterpret_cast<const std::byte*>(samples_.data() + slice * samples_per_channel_) +
-               row * width_ * bytes_of(type);
+        // Of a tile all lines arrive, also those that are not in the band.
+        aim_at_tile();
+        read_tile(chunk);
+        for (const TilePlane& plane : tile_) {
+            for (int line = lines.first; line <= lines.last; ++line) {
+                std::copy_n(plane.pixels.data() + std::ptrdiff_t{line} * source_.grid.chunk_width, area.width(),
+                            band.at(plane.target->plane, area.x_min, area.y_min + line));
+            }
+        }
     }
 
   private:
-    [[nodiscard]] std::uint32_t* plane(std::size_t slice) { return samples_.data() + slice * samples_per_channel_; }
+    void read_tile(std::size_t chunk) {
+        tiles_->readTile(static_cast<int>(chunk % source_.grid.across), static_cast<int>(chunk / source_.grid.across));
+    }
+
+    void set_buffer(const Imf::FrameBuffer& buffer) {
+        if (tiles_) {
+            tiles_->setFrameBuffer(buffer);
+        } else {
+            lines_->setFrameBuffer(buffer);
+        }
+    }
+
+    /// The library is to store pixels in the planes.
+    void aim_at(const Band& band) {
+        const float* planes = band.planes->data();
+        if (planes == planes_ && band.area == area_) {
+            return;
+        }
+        Imf::FrameBuffer buffer;
+        const std::size_t line = static_cast<std::size_t>(band.planes->pitch()) * sizeof(float);
+        // It addresses pixel (x, y) of the file as base + x * 4 + y * line, so that the base may lie outside the plane:
+        // computed as a number, for it is no valid pointer.
+        const std::int64_t corner =
+            (std::int64_t{band.area.y_min} * band.planes->pitch() + band.area.x_min) * std::int64_t{sizeof(float)};
+        for (const PlaneTarget& target : targets_) {
+            const auto base =
+                reinterpret_cast<std::uintptr_t>(band.at(target.plane, band.area.x_min, band.area.y_min)) -
+                static_cast<std::uintptr_t>(corner);
+            buffer.insert(target.channel,
+                          Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(base), // NOLINT(performance-no-int-to-ptr)
+                                     sizeof(float), line));
+        }
+        set_buffer(buffer);
+        planes_ = planes;
+        area_ = band.area;
+    }
+
+    /// The library is to store a tile in memory of ours.
+    void aim_at_tile() {
+        const std::size_t width = static_cast<std::size_t>(source_.grid.chunk_width);
+        Imf::FrameBuffer buffer;
+        tile_.resize(targets_.size());
+        for (std::size_t i = 0; i < targets_.size(); ++i) {
+            tile_[i].target = &targets_[i];
+            tile_[i].pixels.resize(width * static_cast<std::size_t>(source_.grid.chunk_height));
+            buffer.insert(targets_[i].channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(tile_[i].pixels.data()),
+                                                          sizeof(float), width * sizeof(float), 1, 1, 0.0, true, true));
+        }
+        set_buffer(buffer);
+        planes_ = nullptr;
+    }
 
     const PartSource& source_;
+    std::span<const PlaneTarget> targets_;
     LibraryStream stream_;
     Imf::MultiPartInputFile input_;
     std::unique_ptr<Imf::InputPart> lines_;
     std::unique_ptr<Imf::TiledInputPart> tiles_;
-    std::vector<std::uint32_t> samples_; ///< room for 4 bytes a sample, and aligned for them
-    std::size_t samples_per_channel_ = 0;
-    std::size_t width_ = 0;
-    int first_line_ = 0;
+    const float* planes_ = nullptr; ///< where the library stores pixels now
+    Window area_;
+    std::vector<TilePlane> tile_;
 };
 
 class LibraryDecoder : public PartDecoder {
   public:
-    explicit LibraryDecoder(const PartSource& source) : source_(source), layout_(find_slices(source)) {}
+    explicit LibraryDecoder(const PartSource& source) : source_(source), pixel_bytes_(find_slices(source).pixel_bytes) {
+        for (const PlaneTarget& target : source.targets) {
+            const auto first = std::find_if(targets_.begin(), targets_.end(),
+                                            [&](const PlaneTarget& known) { return known.channel == target.channel; });
+            if (first == targets_.end()) {
+                targets_.push_back(target);
+            } else {
+                copies_.emplace_back(first->plane, target.plane);
+            }
+        }
+    }
 
     [[nodiscard]] std::size_t chunk_bytes() const override {
-        return layout_.pixel_bytes * static_cast<std::size_t>(source_.grid.chunk_width) *
+        return pixel_bytes_ * static_cast<std::size_t>(source_.grid.chunk_width) *
                static_cast<std::size_t>(source_.grid.chunk_height);
     }
 
@@ -219,22 +255,23 @@ class LibraryDecoder : public PartDecoder {
     void decode_chunk(std::size_t chunk, const Band& band) {
         std::unique_ptr<LibraryReader>& reader = readers_.local();
         if (!reader) {
-            reader = std::make_unique<LibraryReader>(source_);
+            reader = std::make_unique<LibraryReader>(source_, targets_);
         }
+        reader->read(chunk, band);
         const Window area = source_.grid.area(chunk);
         const LineRange lines = lines_in_band(area, band);
-        reader->read(chunk, lines, layout_);
-        for (std::size_t i = 0; i < layout_.slices.size(); ++i) {
-            const ChunkSlice& slice = layout_.slices[i];
+        for (const auto& [from, to] : copies_) {
             for (int line = lines.first; line <= lines.last; ++line) {
-                unpack_row(slice.type, reader->line(i, line, slice.type), static_cast<std::size_t>(area.width()),
-                           band.at(slice.plane, area.x_min, area.y_min + line));
+                std::copy_n(band.at(from, area.x_min, area.y_min + line), area.width(),
+                            band.at(to, area.x_min, area.y_min + line));
             }
         }
     }
 
     const PartSource& source_;
-    ChunkSlices layout_;
+    std::size_t pixel_bytes_;
+    std::vector<PlaneTarget> targets_;        ///< each channel once, as the library wants them
+    std::vector<std::pair<int, int>> copies_; ///< planes of channels that are wanted again
     tbb::enumerable_thread_specific<std::unique_ptr<LibraryReader>> readers_;
 };
 
