@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <optional>
 
 namespace clshade {
@@ -67,8 +66,9 @@ std::optional<Candidate> candidate_at(const Frame& band, int x, int row) {
     return candidate;
 }
 
-/// Calls `found` with the candidates on every `step`-th pixel of every `step`-th row of the picture.
-void visit_lattice(const VisitRows& rows, int step, const std::function<void(const Candidate&)>& found) {
+/// Calls `found(candidate)` for the candidates on every `step`-th pixel of every `step`-th row of the picture.
+template <typename Found>
+void visit_lattice(const VisitRows& rows, int step, const Found& found) {
     const int start = step / 2;
     rows([&](const Frame& band) {
         const int steps_above = band.first_row > start ? (band.first_row - start + step - 1) / step : 0;
@@ -89,23 +89,30 @@ struct Lot {
     float least_coverage = 0.0F;
     std::size_t count = 0;
     std::vector<Candidate> kept; ///< the first of them
+
+    void add(const Candidate& candidate) {
+        if (count < most_kept) {
+            kept.push_back(candidate);
+        }
+        ++count;
+    }
 };
 using Lots = std::array<Lot, least_coverages.size()>;
 
+/// The second lot is whole only where the first has not enough: else nobody asks for it.
 Lots gather(const VisitRows& rows, int step) {
     Lots lots;
     for (std::size_t i = 0; i < lots.size(); ++i) {
         lots.at(i).step = step;
         lots.at(i).least_coverage = least_coverages.at(i);
     }
+    auto& [whole, any] = lots;
     visit_lattice(rows, step, [&](const Candidate& candidate) {
-        for (Lot& lot : lots) {
-            if (candidate.coverage > lot.least_coverage) {
-                if (lot.count < most_kept) {
-                    lot.kept.push_back(candidate);
-                }
-                ++lot.count;
-            }
+        if (candidate.coverage > whole.least_coverage) {
+            whole.add(candidate);
+        }
+        if (whole.count < enough) {
+            any.add(candidate);
         }
     });
     return lots;

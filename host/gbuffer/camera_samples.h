@@ -18,7 +18,7 @@ struct CameraSample {
 
 /// Some 4000 samples, spread evenly over the picture, of whole pixels if there are enough of them; from a coarse
 /// lattice if that gives enough. `data_window`: of the whole picture. The same for any division into bands. Shows
-/// itself the rows one to three times, once as a rule; keeps some 40 MiB at worst, 7 as a rule.
+/// itself the rows one to three times, once as a rule; keeps some 30 MiB at worst, 7 as a rule.
 [[nodiscard]] std::vector<CameraSample> collect_samples(const Window& data_window, const VisitRows& rows);
 
 } // namespace clshade
