@@ -79,16 +79,20 @@ std::filesystem::path name_beside(const std::filesystem::path& file) {
            fmt::format(".{}.{}-{}.tmp", file.filename().string().substr(0, 200), ::getpid(), next_number++);
 }
 
-/// Where the bytes shall lie in the end: renaming onto a link would replace the link, not the file.
+/// Where the bytes shall lie in the end: renaming onto a link would replace the link, not the file. The file need not be
+/// there yet.
 std::filesystem::path followed(const std::filesystem::path& file) {
+    constexpr int most_links = 40; // as in Linux
     std::error_code error;
-    if (std::filesystem::is_symlink(file, error)) {
-        std::filesystem::path real = std::filesystem::weakly_canonical(file, error);
-        if (!error) {
-            return real;
+    std::filesystem::path real = file;
+    for (int i = 0; i < most_links && std::filesystem::is_symlink(real, error); ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(real, error);
+        if (error) {
+            break;
         }
+        real = real.parent_path() / next; // an absolute one stands alone
     }
-    return file;
+    return real;
 }
 
 } // namespace

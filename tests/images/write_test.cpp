@@ -1,6 +1,7 @@
 // Outputs: what is stored, under which name, and what remains when storing fails.
 #include "host/images/pack.h"
 #include "host/images/temporary_file.h"
+#include "host/images/unpack.h"
 #include "tests/images/fixtures.h"
 
 #include <ImfHeader.h>
@@ -229,6 +230,68 @@ TEST(Pack, HalvesRoundAsImathDoes) {
     EXPECT_EQ(pack_halves(values, packed.data()), 0U);
     for (std::size_t i = 0; i < values.size(); ++i) {
         ASSERT_EQ(packed[i], half(values[i]).bits()) << values[i];
+    }
+    EXPECT_EQ(pack_halves_portable(values, packed.data()), 0U);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        ASSERT_EQ(packed[i], half(values[i]).bits()) << values[i];
+    }
+}
+
+TEST(Pack, BothWaysToHalvesGiveTheSameBitsAndCounts) {
+    std::mt19937 random(8);
+    std::vector<float> values(1U << 20U); // any bits, NaN and what is too large among them
+    for (float& value : values) {
+        value = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
+    }
+    for (unsigned bits = 0x477fe000U - 5; bits < 0x477ff000U + 5; ++bits) { // 65504 to 65520
+        values.push_back(std::bit_cast<float>(bits));
+        values.push_back(-std::bit_cast<float>(bits));
+    }
+    std::vector<std::uint16_t> portable(values.size());
+    std::vector<std::uint16_t> chosen(values.size());
+    const std::size_t clamped = pack_halves_portable(values, portable.data());
+    EXPECT_GT(clamped, values.size() / 3);
+    EXPECT_EQ(pack_halves(values, chosen.data()), clamped);
+    ASSERT_EQ(chosen, portable);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const bool too_large = std::isfinite(values[i]) && std::fabs(values[i]) >= 65520.0F;
+        if (std::isnan(values[i])) { // a quiet one; Imath keeps signalling ones
+            ASSERT_GT(portable[i] & 0x7fffU, 0x7e00U - 1U);
+            ASSERT_EQ(portable[i] >> 15U, std::bit_cast<std::uint32_t>(values[i]) >> 31U);
+            continue;
+        }
+        const half expected = too_large ? half(std::copysign(65504.0F, values[i])) : half(values[i]);
+        ASSERT_EQ(portable[i], expected.bits()) << std::bit_cast<std::uint32_t>(values[i]);
+    }
+    for (std::size_t length = 0; length < 40; ++length) { // any length, at any alignment
+        std::vector<std::uint16_t> few(41, 0xabcd);
+        const std::span<const float> part(values.data() + length, length);
+        pack_halves(part, few.data() + 1);
+        EXPECT_EQ(few[0], 0xabcd);
+        EXPECT_TRUE(std::equal(part.begin(), part.end(), few.begin() + 1, [](float value, std::uint16_t bits) {
+            std::uint16_t one = 0;
+            pack_halves_portable(std::span(&value, 1), &one);
+            return one == bits;
+        }));
+        EXPECT_TRUE(std::all_of(few.begin() + 1 + static_cast<std::ptrdiff_t>(length), few.end(),
+                                [](std::uint16_t bits) { return bits == 0xabcd; }));
+    }
+}
+
+TEST(Pack, ShufflesComeBack) {
+    std::mt19937 random(9);
+    for (std::size_t pairs = 1; pairs < 300; ++pairs) {
+        std::vector<std::uint16_t> values(pairs);
+        std::generate(values.begin(), values.end(), [&] { return static_cast<std::uint16_t>(random()); });
+        std::vector<std::byte> split(2 * pairs);
+        split_bytes(values, split.data(), split.data() + pairs);
+        std::vector<std::byte> differences(split.size());
+        make_differences(split, differences.data());
+        undo_differences(differences);
+        ASSERT_EQ(differences, split);
+        for (std::size_t i = 0; i < pairs; ++i) {
+            ASSERT_EQ(static_cast<unsigned>(split[i]) + 256U * static_cast<unsigned>(split[pairs + i]), values[i]);
+        }
     }
 }
 
