@@ -70,8 +70,9 @@ class BatchListener {
     [[nodiscard]] virtual bool interrupted() const { return false; }
 };
 
-/// Shades the jobs. Pixels depend on neither threads nor memory nor order. A frame that does not fit max_memory is
-/// shaded in bands. Returns when all are done, a failure was not to be survived, or it was interrupted.
+/// Shades the jobs on settings.threads threads. Pixels depend on neither threads nor memory nor order. A frame that
+/// does not fit max_memory is shaded in bands. Returns when all are done, a failure was not to be survived, or it was
+/// interrupted.
 void run_batch(std::span<const FrameJob> jobs, const RunScene& scene, const BatchSettings& settings,
                BatchResources& resources, BatchListener& listener);
 

@@ -19,6 +19,10 @@ std::string ratio_text(const RivalResult& rival) {
     return rival.status == BenchStatus::ok ? fmt::format("{:.3f}", rival.ratio) : std::string(name_of(rival.status));
 }
 
+bool is_batch(const BenchResult& row) {
+    return row.key.starts_with("batch.");
+}
+
 std::string kernels_text(const BenchReport& bench) {
     Table table({{"kernel", Align::left},
                  {"lanes"},
@@ -31,6 +35,9 @@ std::string kernels_text(const BenchReport& bench) {
                  {"build cold [ms]"},
                  {"cached [ms]"}});
     for (const BenchResult& row : bench.results) {
+        if (is_batch(row)) {
+            continue; // tables of their own
+        }
         if (row.status != BenchStatus::ok) {
             table.add_row({row.key, std::string(name_of(row.status))});
             continue;
@@ -40,12 +47,15 @@ std::string kernels_text(const BenchReport& bench) {
                        fmt::format("{:.0f}", row.bytes_per_pixel), fmt::format("{:.2f}", row.gb_per_s),
                        format_ms(row.build_cold_ms), format_ms(row.build_cached_ms)});
     }
-    return table.text();
+    return table.empty() ? std::string() : table.text();
 }
 
 std::string rivals_text(const BenchReport& bench) {
     Table table({{"kernel", Align::left}, {"against", Align::left}, {"rival median [ms]"}, {"kernel/rival"}});
     for (const BenchResult& row : bench.results) {
+        if (is_batch(row)) {
+            continue;
+        }
         for (const RivalResult& rival : row.against) {
             table.add_row({row.key, rival.name, rival.status == BenchStatus::ok ? format_ms(rival.median_ms) : "",
                            ratio_text(rival)});
@@ -75,6 +85,46 @@ std::string prefilter_text(const BenchReport& bench) {
                        timed ? format_error(rival.max_error) : "", ratio_text(rival)});
     }
     return table_text(table);
+}
+
+std::string megabytes(double bytes) {
+    return fmt::format("{:.2f}", 1e-6 * bytes);
+}
+
+/// Whole runs, then what each compression of an output costs.
+std::string batch_text(const BenchReport& bench) {
+    Table runs({{"run, from files to files", Align::left},
+                {"frames/s"},
+                {"read [MB]"},
+                {"written [MB]"},
+                {"against", Align::left},
+                {"frames/s"},
+                {"time ours/theirs"},
+                {"", Align::left}});
+    Table encoding({{"output, forced to the disk", Align::left}, {"median [ms]"}, {"min [ms]"}, {"written [MB]"}});
+    for (const BenchResult& row : bench.results) {
+        if (!is_batch(row)) {
+            continue;
+        }
+        if (row.status != BenchStatus::ok || !row.batch) {
+            runs.add_row({row.key, std::string(name_of(row.status))});
+            continue;
+        }
+        if (row.key.starts_with("batch.encode.")) {
+            encoding.add_row(
+                {row.key, format_ms(row.median_ms), format_ms(row.min_ms), megabytes(row.batch->bytes_written)});
+            continue;
+        }
+        for (const RivalResult& rival : row.against) {
+            const bool timed = rival.status == BenchStatus::ok;
+            runs.add_row({row.key, fmt::format("{:.2f}", row.batch->frames_per_second),
+                          megabytes(row.batch->bytes_read), megabytes(row.batch->bytes_written), rival.name,
+                          timed ? fmt::format("{:.2f}", 1e3 / rival.median_ms) : "", ratio_text(rival), rival.note});
+        }
+    }
+    const char* const note = "Inputs lie in the page cache. Every output of ours is checked and forced to the disk; "
+                             "the rivals' are not.\n";
+    return table_text(runs) + (runs.empty() ? "" : note) + table_text(encoding);
 }
 
 std::string headline_text(const BenchReport& bench, const DeviceInfo& device) {
@@ -162,6 +212,9 @@ nlohmann::json json_of(const RivalResult& rival) {
     result["ratio"] = rival.ratio;
     result["max_error"] = rival.max_error;
     result["rounds"] = rival.rounds;
+    if (!rival.note.empty()) {
+        result["note"] = rival.note;
+    }
     return result;
 }
 
@@ -189,6 +242,13 @@ nlohmann::json json_of(const BenchResult& row) {
                              {"against", against}};
     if (row.max_error) {
         result["max_error"] = *row.max_error;
+    }
+    if (row.batch) {
+        result["batch"] = {{"frames", row.batch->frames},
+                           {"frames_per_second", row.batch->frames_per_second},
+                           {"bytes_read", row.batch->bytes_read},
+                           {"bytes_written", row.batch->bytes_written},
+                           {"rival_bytes_written", row.batch->rival_bytes_written}};
     }
     return result;
 }
@@ -256,8 +316,8 @@ void add_bench(JsonReport& report, const BenchReport& bench) {
 }
 
 std::string bench_text(const BenchReport& bench, const DeviceInfo& device) {
-    return kernels_text(bench) + rivals_text(bench) + prefilter_text(bench) + deck_text(bench) + layers_text(bench) +
-           headline_text(bench, device) + limits_text(bench) + reasons_text(bench);
+    return kernels_text(bench) + rivals_text(bench) + prefilter_text(bench) + batch_text(bench) + deck_text(bench) +
+           layers_text(bench) + headline_text(bench, device) + limits_text(bench) + reasons_text(bench);
 }
 
 } // namespace clshade::cli

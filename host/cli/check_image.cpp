@@ -36,8 +36,7 @@ PlaneSlab in_corner(const PlaneSlab& planes, int width, int height) {
 
 } // namespace
 
-CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, std::uint64_t max_memory,
-                            int threads) {
+CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene, std::uint64_t max_memory) {
     const RunScene chosen = choose_scene(scene);
     PlannedInput planned = plan_input(file, chosen.scene, scene.view);
     CheckInput input;
@@ -86,7 +85,7 @@ void ErrorDump::add(const std::string& layer, const Frame& frame, const ShadedIm
     entries_.push_back({layer.empty() ? layer : layer + ".", std::move(planes)});
 }
 
-void ErrorDump::write(const std::filesystem::path& file, int threads) const {
+void ErrorDump::write(const std::filesystem::path& file) const {
     OutputImage image;
     image.data_window = data_window_;
     image.display_window = display_window_;
@@ -111,7 +110,6 @@ void ErrorDump::write(const std::filesystem::path& file, int threads) const {
     image.attributes = {{"software", fmt::format("clshade {} check", CLSHADE_VERSION)}};
     ExrSettings settings;
     settings.half = false;
-    settings.threads = threads;
     write_exr(file, image, settings);
 }
 

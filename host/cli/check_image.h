@@ -23,7 +23,7 @@ struct CheckInput {
 
 /// Reads INPUT and the scene's environment as `shade` would. In builds without image files: throws UsageError.
 [[nodiscard]] CheckInput read_check_input(const std::filesystem::path& file, const SceneOptions& scene,
-                                          std::uint64_t max_memory, int threads);
+                                          std::uint64_t max_memory);
 
 /// Throws as check_output_path does, and if --dump would overwrite the input.
 void check_dump_path(const std::filesystem::path& file, const std::filesystem::path& input);
@@ -35,7 +35,7 @@ class ErrorDump {
     /// `layer`: put before the planes' names with a dot; may be empty.
     void add(const std::string& layer, const Frame& frame, const ShadedImage& shaded, const reference::Image& expected);
     /// Writes all as float EXR. Throws RuntimeFailure.
-    void write(const std::filesystem::path& file, int threads) const;
+    void write(const std::filesystem::path& file) const;
 
   private:
     struct Entry {

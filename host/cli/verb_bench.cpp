@@ -142,8 +142,12 @@ ExitCode bench(const BenchFlags& flags, JsonReport& report) {
 
 Action declare_bench(CLI::App& app) {
     auto flags = std::make_shared<BenchFlags>();
-    app.add_option("--filter", flags->filter, "only rows whose key this regular expression finds")->type_name("REGEX");
-    app.add_option("--size", flags->size, "picture size for every row of shading, in pixels. Default: each row's own")
+    app.add_option("--filter", flags->filter,
+                   "only rows whose key this regular expression finds. Rows of whole runs, from files to files, take "
+                   "minutes and write gigabytes into TMPDIR: they take part only where it says `batch`")
+        ->type_name("REGEX");
+    app.add_option("--size", flags->size,
+                   "picture size for every row of shading and of whole runs, in pixels. Default: each row's own")
         ->type_name("WxH");
     app.add_option("--compare", flags->baseline, "compare with an earlier --json report; exit code 3 if slower")
         ->type_name("BASELINE.json");

@@ -75,7 +75,7 @@ class CheckRun {
             input();
         }
         if (!options_.dump.empty()) {
-            dump_.write(options_.dump, options_.common.host_threads());
+            dump_.write(options_.dump);
         }
         return tell();
     }
@@ -83,8 +83,7 @@ class CheckRun {
   private:
     void input() {
         Stopwatch watch;
-        CheckInput input = read_check_input(options_.input, options_.scene, options_.common.max_memory,
-                                            options_.common.host_threads());
+        CheckInput input = read_check_input(options_.input, options_.scene, options_.common.max_memory);
         StageTimes stages;
         stages.add("read", watch.lap());
         Progress progress(options_.common, 1);
@@ -240,8 +239,7 @@ ExitCode ground_truth(const CheckOptions& options, JsonReport& report) {
             progress.step();
         }
     } else {
-        const CheckInput input =
-            read_check_input(options.input, options.scene, options.common.max_memory, options.common.host_threads());
+        const CheckInput input = read_check_input(options.input, options.scene, options.common.max_memory);
         Progress progress(options.common, 1);
         progress.update("integrating " + options.input);
         append_samples(all, input.frame, wanted, {});

@@ -67,7 +67,7 @@ OutputImage gbuffer_image(const DemoFrame& frame) {
 }
 
 // The picture that the scene's [environment] names. Its sky is the studio's: row 0 is overhead.
-void write_studio(const std::filesystem::path& file, int threads) {
+void write_studio(const std::filesystem::path& file) {
     const LatLong studio = built_in_studio();
     PlaneSlab planes(studio.width, studio.height, 3);
     OutputImage image;
@@ -86,9 +86,7 @@ void write_studio(const std::filesystem::path& file, int threads) {
         image.channels.push_back({names.at(static_cast<std::size_t>(c)), &planes, c, true});
     }
     image.attributes = {{"software", fmt::format("clshade {} demo", CLSHADE_VERSION)}};
-    ExrSettings exr;
-    exr.threads = threads;
-    write_exr(file, image, exr);
+    write_exr(file, image, {});
 }
 
 std::vector<FrameJob> make_gbuffers(const std::filesystem::path& folder, const DemoOptions& options,
@@ -96,8 +94,6 @@ std::vector<FrameJob> make_gbuffers(const std::filesystem::path& folder, const D
     const Size size = parse_size("--size", options.size);
     const int count = static_cast<int>(parse_whole("--frames", options.frames, 1, 1000));
     const int threads = options.common.host_threads();
-    ExrSettings exr;
-    exr.threads = threads;
     std::vector<FrameJob> jobs;
     for (int index = 1; index <= count; ++index) {
         const FrameJob job{index, folder / fmt::format("gbuffer.{:04d}.exr", index),
@@ -105,7 +101,7 @@ std::vector<FrameJob> make_gbuffers(const std::filesystem::path& folder, const D
                            folder / fmt::format("shaded.{:04d}.png", index)};
         progress.update("making " + job.input.filename().string());
         const DemoFrame frame = render_demo_frame(size.width, size.height, index, count, threads);
-        write_exr(job.input, gbuffer_image(frame), exr);
+        write_exr(job.input, gbuffer_image(frame), {});
         progress.step();
         jobs.push_back(job);
     }
@@ -126,13 +122,13 @@ ExitCode demo(const DemoOptions& options, JsonReport& report) {
     const std::vector<FrameJob> jobs = make_gbuffers(folder, options, progress);
     const std::filesystem::path scene_file = folder / "scene.toml";
     write_text_file(scene_file, demo_scene_toml());
-    write_studio(folder / demo_environment, options.common.host_threads());
+    write_studio(folder / demo_environment);
 
     SceneOptions scene_options;
     scene_options.file = scene_file.string();
     const RunScene scene = choose_scene(scene_options);
     const BatchSettings settings = batch_settings(options.common);
-    ShadeRun run(options.common, scene, settings, session, progress, report, {.tell_frames = false});
+    ShadeRun run(options.common, scene, settings, session, progress, report, {false, false, {}});
     const ExitCode code = run.run(jobs);
     if (!options.common.quiet && code == ExitCode::ok) {
         const std::string last = fmt::format("{:04d}", frames);
