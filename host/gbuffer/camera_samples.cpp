@@ -106,7 +106,8 @@ Lots gather(const VisitRows& rows, int step) {
         lots.at(i).step = step;
         lots.at(i).least_coverage = least_coverages.at(i);
     }
-    auto& [whole, any] = lots;
+    Lot& whole = lots.front();
+    Lot& any = lots.back();
     visit_lattice(rows, step, [&](const Candidate& candidate) {
         if (candidate.coverage > whole.least_coverage) {
             whole.add(candidate);
