@@ -29,7 +29,7 @@ constexpr std::uint64_t most_read_together = std::uint64_t{1} << 19U;
 struct Scratch {
     std::unique_ptr<libdeflate_decompressor, FreeDecompressor> inflater{libdeflate_alloc_decompressor()};
     std::vector<exr_chunk_info_t> chunks;
-    std::vector<std::byte> packed, inflated, row;
+    std::vector<std::byte> packed, inflated;
 };
 
 /// Some chunks as they lie in the file, which may hold the last first.
@@ -108,7 +108,7 @@ class ChunkDecoder : public PartDecoder {
                     unpack_row(slice.type, packed.data() + start, width, out);
                 } else {
                     merge_row(slice.type, scratch.inflated.data() + start / 2,
-                              scratch.inflated.data() + (unpacked + 1) / 2 + start / 2, width, out, scratch.row);
+                              scratch.inflated.data() + (unpacked + 1) / 2 + start / 2, width, out);
                 }
             }
         }

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
 namespace clshade {
 
@@ -13,12 +12,31 @@ namespace clshade {
     return type == SampleType::half ? 2 : 4;
 }
 
+/// The loops that take the time, for one kind of processor. All kinds give the same bits.
+struct UnpackLoops {
+    /// `count` halves (at any alignment) to floats. NaNs keep sign and payload and become quiet, as the processor's own
+    /// conversion has it.
+    void (*widen_halves)(const std::byte* halves, std::size_t count, float* out) = nullptr;
+    /// The same for halves whose first bytes lie at `even` and second bytes at `odd`.
+    void (*merge_halves)(const std::byte* even, const std::byte* odd, std::size_t count, float* out) = nullptr;
+    /// `pairs` pairs of bytes, taken from `even` and `odd` in turn.
+    void (*merge_bytes)(const std::byte* even, const std::byte* odd, std::size_t pairs, std::byte* out) = nullptr;
+    /// See undo_differences.
+    void (*undo_differences)(std::span<std::byte> bytes) = nullptr;
+};
+
+/// For any processor.
+[[nodiscard]] const UnpackLoops& portable_loops();
+/// With AVX2 and F16C; null on processors without them.
+[[nodiscard]] const UnpackLoops* avx2_loops();
+/// The best for this processor.
+[[nodiscard]] const UnpackLoops& unpack_loops();
+
 /// `count` samples that lie one after the other (at any alignment) to floats; unsigned integers are rounded to nearest.
 void unpack_row(SampleType type, const std::byte* samples, std::size_t count, float* out);
 
-/// The same for samples whose even bytes lie at `even` and odd bytes at `odd`. `scratch` grows to a row.
-void merge_row(SampleType type, const std::byte* even, const std::byte* odd, std::size_t count, float* out,
-               std::vector<std::byte>& scratch);
+/// The same for samples whose even bytes lie at `even` and odd bytes at `odd`.
+void merge_row(SampleType type, const std::byte* even, const std::byte* odd, std::size_t count, float* out);
 
 /// Each byte but the first was stored as its difference to the one before, plus 128 (modulo 256).
 void undo_differences(std::span<std::byte> bytes);
