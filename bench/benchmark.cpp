@@ -1,5 +1,7 @@
 #include "bench/benchmark.h"
 
+#include "bench/batch_bench.h"
+#include "bench/batch_rows.h"
 #include "bench/bench_group.h"
 #include "bench/bench_rows.h"
 #include "bench/build_times.h"
@@ -117,20 +119,24 @@ std::vector<std::string> benchmark_keys(const BenchOptions& options) {
     for (const PrefilterRow& row : select_prefilter_rows(options)) {
         keys.push_back(row.key());
     }
+    for (const BatchRow& row : select_batch_rows(options)) {
+        keys.push_back(row.key());
+    }
     return keys;
 }
 
 BenchReport run_benchmarks(Device& device, const BenchOptions& options, const BenchProgress& progress) {
     const std::vector<BenchRow> rows = select_rows(options);
     const std::vector<PrefilterRow> prefilter_rows = select_prefilter_rows(options);
-    if (rows.empty() && prefilter_rows.empty()) {
+    const std::vector<BatchRow> batch_rows = select_batch_rows(options);
+    if (rows.empty() && prefilter_rows.empty() && batch_rows.empty()) {
         BenchOptions every = options;
         every.filter.clear();
         throw UsageError(fmt::format("--filter '{}' matches no kernel; there are {}", options.filter,
                                      fmt::join(benchmark_keys(every), ", ")));
     }
     const std::vector<std::vector<BenchRow>> groups = by_size(rows);
-    const int total = static_cast<int>(rows.size() + groups.size() + prefilter_rows.size());
+    const int total = static_cast<int>(rows.size() + groups.size() + prefilter_rows.size() + batch_rows.size());
     int done = 0;
     const auto tell = [&](const std::string& what) {
         if (progress) {
@@ -162,8 +168,12 @@ BenchReport run_benchmarks(Device& device, const BenchOptions& options, const Be
     add_missing_deck(report.deck);
     std::vector<BenchResult> filtered = run_prefilter_rows(device, options, prefilter_rows, tell);
     std::move(filtered.begin(), filtered.end(), std::back_inserter(report.results));
+    std::vector<BenchResult> batches = run_batch_rows(device, options, batch_rows, tell);
+    std::move(batches.begin(), batches.end(), std::back_inserter(report.results));
     report.headline = headline_of(report.results);
     report.limits = judged_limits(report.results);
+    const std::vector<SpeedLimit> of_batches = batch_limits(report.results);
+    report.limits.insert(report.limits.end(), of_batches.begin(), of_batches.end());
     return report;
 }
 

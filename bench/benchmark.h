@@ -30,9 +30,11 @@ enum class BenchStatus { ok, skipped, unsupported, error };
 /// non-temporal stores), "openmp_simd" (the compiler's vectorised C++ loop), "hand_simd" (hand-vectorised C++),
 /// "naive_opencl" (image2d_t and pow), "reference" (scalar double precision, one thread), the key of another row that
 /// this one is measured against, or "mean_alone" (of rows with several materials: the mean of kernels that shade the
-/// whole picture with one of them, taken inside each round).
+/// whole picture with one of them, taken inside each round). Of whole runs (batch_bench.h): "decode_encode" (the same
+/// files decoded and encoded by OpenEXR, nothing computed), "oiio" (a straightforward OpenImageIO program).
 struct RivalResult {
     std::string name;
+    std::string note; ///< which of several ways it goes; empty for most
     BenchStatus status = BenchStatus::ok;
     std::string reason; ///< why not, unless ok
     double median_ms = 0.0;
@@ -44,7 +46,17 @@ struct RivalResult {
     int rounds = 0;
 };
 
-/// One row of the table: one kernel at one size; or pre-filtering one environment (prefilter_bench.h).
+/// Of a whole run, from files to files; sizes are those of the files, per frame.
+struct BatchFigures {
+    int frames = 0; ///< of one turn
+    double frames_per_second = 0.0;
+    double bytes_read = 0.0;
+    double bytes_written = 0.0;
+    double rival_bytes_written = 0.0; ///< by the library, of the same picture; 0: no rival
+};
+
+/// One row of the table: one kernel at one size; or pre-filtering one environment (prefilter_bench.h); or a whole run,
+/// whose times are those of a frame (batch_bench.h).
 struct BenchResult {
     std::string key; ///< stable: "shade.blinn_phong.lambert.distant1.3840x2160", "prefilter.1024x512"; JSON `kernel`
     BenchStatus status = BenchStatus::ok;
@@ -68,6 +80,7 @@ struct BenchResult {
     double build_cached_ms = 0.0; ///< the same from that cache
     /// Of a pre-filter: largest relative error at sampled vertices, against the reference's sums in double precision.
     std::optional<double> max_error;
+    std::optional<BatchFigures> batch; ///< of a whole run
     std::vector<RivalResult> against;
 };
 
@@ -120,8 +133,10 @@ struct BenchReport {
 };
 
 struct BenchOptions {
-    std::string filter; ///< regular expression (ECMAScript) searched in the key; empty: every row
-    int width = 0;      ///< 0: each row's own size; else every row of shading at this size
+    /// Regular expression (ECMAScript) searched in the key; empty: every row. Rows of whole runs take part only where
+    /// it has the word "batch": they take minutes and write gigabytes.
+    std::string filter;
+    int width = 0; ///< 0: each row's own size; else every row of shading at this size
     int height = 0;
     int rounds = 15;      ///< at least this many rounds
     double seconds = 1.5; ///< time budget per row; a group of rows that run in turns has the sum

@@ -13,15 +13,21 @@ namespace rivals {
 void openmp_simd_baseline(const Planes& planes, const Scene& scene, std::size_t begin, std::size_t end);
 void hand_simd_baseline(const Planes& planes, const Scene& scene, std::size_t begin, std::size_t end);
 void stream_baseline(const Planes& planes, std::size_t begin, std::size_t end);
+void interleaved_baseline(const float* pixels, const Interleaved& layout, const Scene& scene, float* out,
+                          std::size_t count);
 void filter_baseline(const SkySource& source, const SkyLobe& lobe, float* out, std::size_t begin, std::size_t end);
 #ifdef CLSHADE_RIVALS_X86
 void openmp_simd_x86_64_v3(const Planes& planes, const Scene& scene, std::size_t begin, std::size_t end);
 void hand_simd_x86_64_v3(const Planes& planes, const Scene& scene, std::size_t begin, std::size_t end);
 void stream_x86_64_v3(const Planes& planes, std::size_t begin, std::size_t end);
+void interleaved_x86_64_v3(const float* pixels, const Interleaved& layout, const Scene& scene, float* out,
+                           std::size_t count);
 void filter_x86_64_v3(const SkySource& source, const SkyLobe& lobe, float* out, std::size_t begin, std::size_t end);
 void openmp_simd_x86_64_v4(const Planes& planes, const Scene& scene, std::size_t begin, std::size_t end);
 void hand_simd_x86_64_v4(const Planes& planes, const Scene& scene, std::size_t begin, std::size_t end);
 void stream_x86_64_v4(const Planes& planes, std::size_t begin, std::size_t end);
+void interleaved_x86_64_v4(const float* pixels, const Interleaved& layout, const Scene& scene, float* out,
+                           std::size_t count);
 void filter_x86_64_v4(const SkySource& source, const SkyLobe& lobe, float* out, std::size_t begin, std::size_t end);
 #endif
 
@@ -38,16 +44,16 @@ const std::vector<HostKernels>& usable_kernels() {
             __builtin_cpu_supports("avx512cd") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
             __builtin_cpu_supports("avx512vl") != 0) {
             sets.push_back({"x86-64-v4", rivals::openmp_simd_x86_64_v4, rivals::hand_simd_x86_64_v4,
-                            rivals::stream_x86_64_v4, rivals::filter_x86_64_v4});
+                            rivals::stream_x86_64_v4, rivals::filter_x86_64_v4, rivals::interleaved_x86_64_v4});
         }
         if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0 &&
             __builtin_cpu_supports("bmi2") != 0) {
             sets.push_back({"x86-64-v3", rivals::openmp_simd_x86_64_v3, rivals::hand_simd_x86_64_v3,
-                            rivals::stream_x86_64_v3, rivals::filter_x86_64_v3});
+                            rivals::stream_x86_64_v3, rivals::filter_x86_64_v3, rivals::interleaved_x86_64_v3});
         }
 #endif
         sets.push_back({"baseline", rivals::openmp_simd_baseline, rivals::hand_simd_baseline, rivals::stream_baseline,
-                        rivals::filter_baseline});
+                        rivals::filter_baseline, rivals::interleaved_baseline});
         return sets;
     }();
     return usable;

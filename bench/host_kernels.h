@@ -15,6 +15,7 @@ struct HostKernels {
     rivals::ShadeRange hand_simd;
     rivals::StreamRange stream;
     rivals::FilterRange filter;
+    rivals::InterleavedRange interleaved;
 };
 
 /// The instruction sets that were compiled and that this processor runs, widest first: "x86-64-v4" (AVX-512),

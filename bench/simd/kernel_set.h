@@ -15,6 +15,8 @@ namespace clshade::rivals {
 void CLSHADE_RIVALS(openmp_simd)(const Planes& planes, const Scene& scene, size_t begin, size_t end);
 void CLSHADE_RIVALS(hand_simd)(const Planes& planes, const Scene& scene, size_t begin, size_t end);
 void CLSHADE_RIVALS(stream)(const Planes& planes, size_t begin, size_t end);
+void CLSHADE_RIVALS(interleaved)(const float* pixels, const Interleaved& layout, const Scene& scene, float* out,
+                                 size_t count);
 void CLSHADE_RIVALS(filter)(const SkySource& source, const SkyLobe& lobe, float* out, size_t begin, size_t end);
 
 } // namespace clshade::rivals

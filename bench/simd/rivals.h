@@ -61,4 +61,15 @@ struct SkyLobe {
 /// Filters for the vertices [begin, end) of the grid; `out` is RGB interleaved.
 using FilterRange = void (*)(const SkySource& source, const SkyLobe& lobe, float* out, size_t begin, size_t end);
 
+/// Pixels with all their channels next to each other, as image libraries hand them out. Which channel is which, in this
+/// order: normal, position, albedo, f0 (three each), GGX roughness, coverage.
+inline constexpr size_t interleaved_channels = 14;
+struct Interleaved {
+    size_t channels; ///< of a pixel
+    size_t offset[interleaved_channels];
+};
+/// Shades `count` pixels under the scene's first light; `out` is RGBA interleaved.
+using InterleavedRange = void (*)(const float* pixels, const Interleaved& layout, const Scene& scene, float* out,
+                                  size_t count);
+
 } // namespace clshade::rivals
