@@ -3,9 +3,6 @@
 #include "host/images/image_reader.h"
 #include "host/scene/frame_camera.h"
 
-#include <fmt/format.h>
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -69,9 +66,6 @@ LoadedFrame describe(const PlannedInput& input) {
 
 void accept(LoadedFrame& loaded, Frame frame) {
     append_unique(loaded.warnings, frame.warnings);
-    for (const std::string& note : frame.notes) {
-        spdlog::info("{}: {}", frame.file, note);
-    }
     loaded.frame = std::move(frame);
 }
 

@@ -52,7 +52,7 @@ struct LoadedFrame {
 
 /// Everything of a LoadedFrame but the planes and the finished frame.
 [[nodiscard]] LoadedFrame describe(const PlannedInput& input);
-/// Moves a finished frame in, and its warnings; logs its notes.
+/// Moves a finished frame in, and its warnings.
 void accept(LoadedFrame& loaded, Frame frame);
 
 } // namespace clshade

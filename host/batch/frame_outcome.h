@@ -23,10 +23,11 @@ struct FrameOutcome {
     double busy_milliseconds = 0.0; ///< of all threads that decoded and encoded, summed
     std::vector<KernelTime> kernels;
     std::vector<std::string> warnings;
-    std::string build;       ///< "built" or "from the cache" for the first frame of a program, else empty
-    std::string environment; ///< the same for the environment's maps
-    std::string program;     ///< identity of the kernel
-    std::string camera;      ///< where it came from
+    std::vector<std::string> notes; ///< what was found out and is no fault, such as a recovered camera's residual
+    std::string build;              ///< "built" or "from the cache" for the first frame of a program, else empty
+    std::string environment;        ///< the same for the environment's maps
+    std::string program;            ///< identity of the kernel
+    std::string camera;             ///< where it came from
     std::uint64_t bytes_read = 0;
     std::uint64_t bytes_written = 0;
     std::string input_hash;  ///< XXH3 of the file, if asked for

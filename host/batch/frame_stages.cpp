@@ -258,6 +258,7 @@ void FrameStages::shade_in_bands(FrameWork& work, std::uint64_t limit) {
 
 void FrameStages::finish(FrameWork& work) const {
     append(work.outcome.warnings, std::move(work.loaded.warnings));
+    append(work.outcome.notes, std::move(work.loaded.frame.notes));
     append(work.outcome.warnings, count_warnings(work.job->input.string(), work.outcome.counts));
     work.done = true;
 }

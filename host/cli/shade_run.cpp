@@ -93,6 +93,11 @@ ExitCode ShadeRun::run(const std::vector<FrameJob>& jobs) {
     stats_.finish(watch.milliseconds(), settings_.threads);
     report_.set("run", stats_.json());
     progress_.clear();
+    if (common_.max_memory > 0 && peak_memory() > static_cast<double>(common_.max_memory) && !common_.quiet) {
+        spdlog::warn(
+            "--max-mem {}: {:.0f} MiB were used at most; program, kernels and the smallest band take that much",
+            common_.max_memory >> 20U, peak_memory() / (1 << 20));
+    }
     if (common_.run_stats) {
         fmt::print("\n{}", stats_.text());
     }
@@ -169,6 +174,9 @@ void ShadeRun::tell(const FrameJob& job, const FrameOutcome& outcome) {
     progress_.print([&] {
         for (const std::string& warning : outcome.warnings) {
             spdlog::warn("{}{}", label_of(job), warning);
+        }
+        for (const std::string& note : outcome.notes) {
+            spdlog::info("{}{}: {}", label_of(job), job.input.string(), note);
         }
         if (common_.quiet || !options_.tell_frames) {
             return;

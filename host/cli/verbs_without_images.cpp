@@ -42,7 +42,7 @@ EnvironmentFile read_environment_file(const std::filesystem::path& path, std::ui
 }
 
 CheckInput read_check_input(const std::filesystem::path& /*file*/, const SceneOptions& /*scene*/,
-                            std::uint64_t /*max_memory*/, int /*threads*/) {
+                            std::uint64_t /*max_memory*/) {
     throw UsageError("check INPUT: this build has no image files; configure with -DCLSHADE_IMAGES=ON");
 }
 
@@ -53,7 +53,7 @@ void check_dump_path(const std::filesystem::path& /*file*/, const std::filesyste
 // Never reached: check_dump_path has thrown.
 void ErrorDump::add(const std::string& /*layer*/, const Frame& /*frame*/, const ShadedImage& /*shaded*/,
                     const reference::Image& /*expected*/) {}
-void ErrorDump::write(const std::filesystem::path& /*file*/, int /*threads*/) const {}
+void ErrorDump::write(const std::filesystem::path& /*file*/) const {}
 
 void write_thumbnails(const std::filesystem::path& /*folder*/, std::span<const PresetInfo> /*presets*/,
                       Session& /*session*/, int /*threads*/,
