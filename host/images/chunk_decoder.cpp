@@ -2,7 +2,6 @@
 #include "host/images/part_decoder.h"
 #include "host/images/unpack.h"
 
-#include <fmt/format.h>
 #include <libdeflate.h>
 #include <tbb/enumerable_thread_specific.h>
 
@@ -55,14 +54,26 @@ FileRange next_range(std::span<const exr_chunk_info_t> chunks) {
     return range;
 }
 
+/// What was done to the bytes of a chunk.
+enum class Packing { none, rle, zip, pxr24 };
+
+Packing packing_of(exr_compression_t compression) {
+    switch (compression) {
+    case EXR_COMPRESSION_RLE:
+        return Packing::rle;
+    case EXR_COMPRESSION_PXR24:
+        return Packing::pxr24;
+    default:
+        return Packing::zip;
+    }
+}
+
 class ChunkDecoder : public PartDecoder {
   public:
-    explicit ChunkDecoder(const PartSource& source) : source_(source), layout_(find_slices(source)) {}
+    explicit ChunkDecoder(const PartSource& source)
+        : source_(source), layout_(find_slices(source)), packing_(packing_of(source.compression)) {}
 
-    [[nodiscard]] std::size_t chunk_bytes() const override {
-        return layout_.pixel_bytes * static_cast<std::size_t>(source_.grid.chunk_width) *
-               static_cast<std::size_t>(source_.grid.chunk_height);
-    }
+    [[nodiscard]] std::size_t chunk_bytes() const override { return bytes_of_chunk(source_.grid, layout_); }
 
     void decode(std::size_t first, std::size_t last, const Band& band) override {
         Scratch& scratch = scratch_.local();
@@ -91,53 +102,62 @@ class ChunkDecoder : public PartDecoder {
     void decode_chunk(std::size_t chunk, std::span<const std::byte> packed, Scratch& scratch, const Band& band) const {
         const Window area = source_.grid.area(chunk);
         const auto width = static_cast<std::size_t>(area.width());
-        const std::size_t unpacked = width * static_cast<std::size_t>(area.height()) * layout_.pixel_bytes;
-        const bool stored = packed.size() == unpacked; // data that would grow is stored as it is, whatever the method
-        if (!stored && !decompress(packed, unpacked, scratch)) {
-            const std::string label = source_.file->part_label(source_.part);
-            source_.file->fail(fmt::format("{}pixels of chunk {} are damaged; render or copy the file again",
-                                           label.empty() ? "" : label + ": ", chunk));
+        const std::size_t pixels = width * static_cast<std::size_t>(area.height());
+        // Data that would grow is stored as it is, whatever the method.
+        const Packing packing = packed.size() == pixels * layout_.pixel_bytes ? Packing::none : packing_;
+        const std::size_t pixel_bytes = packing == Packing::pxr24 ? layout_.pxr24_pixel_bytes : layout_.pixel_bytes;
+        const std::size_t size = pixels * pixel_bytes;
+        if (packing != Packing::none &&
+            (packed.size() > pixels * layout_.pixel_bytes || !decompress(packed, packing, size, scratch))) {
+            fail_chunk(source_, chunk);
         }
+        const std::byte* bytes = packing == Packing::none ? packed.data() : scratch.inflated.data();
         const LineRange lines = lines_in_band(area, band);
         for (int line = lines.first; line <= lines.last; ++line) {
             for (const ChunkSlice& slice : layout_.slices) {
-                const std::size_t start =
-                    width * (static_cast<std::size_t>(line) * layout_.pixel_bytes + slice.sample_offset);
+                const std::size_t offset = packing == Packing::pxr24 ? slice.pxr24_offset : slice.sample_offset;
+                const std::size_t start = width * (static_cast<std::size_t>(line) * pixel_bytes + offset);
                 float* out = band.at(slice.plane, area.x_min, area.y_min + line);
-                if (stored) {
-                    unpack_row(slice.type, packed.data() + start, width, out);
-                } else {
-                    merge_row(slice.type, scratch.inflated.data() + start / 2,
-                              scratch.inflated.data() + (unpacked + 1) / 2 + start / 2, width, out);
+                switch (packing) {
+                case Packing::none:
+                    unpack_row(slice.type, bytes + start, width, out);
+                    break;
+                case Packing::pxr24:
+                    undo_pxr24_row(slice.type, bytes + start, width, out);
+                    break;
+                default: // the even bytes of the data lie before the odd ones
+                    merge_row(slice.type, bytes + start / 2, bytes + (size + 1) / 2 + start / 2, width, out);
+                    break;
                 }
             }
         }
     }
 
-    /// Undoes RLE or ZIP into scratch.inflated: the even bytes of the data before the odd ones. False: damaged.
-    [[nodiscard]] bool decompress(std::span<const std::byte> packed, std::size_t unpacked, Scratch& scratch) const {
-        if (source_.compression == EXR_COMPRESSION_NONE || packed.size() > unpacked) {
-            return false;
-        }
-        scratch.inflated.resize(unpacked);
-        if (source_.compression == EXR_COMPRESSION_RLE) {
+    /// Into scratch.inflated, which must come to `size` bytes. False: damaged.
+    [[nodiscard]] static bool decompress(std::span<const std::byte> packed, Packing packing, std::size_t size,
+                                         Scratch& scratch) {
+        scratch.inflated.resize(size);
+        if (packing == Packing::rle) {
             if (!undo_runs(packed, scratch.inflated)) {
                 return false;
             }
         } else {
             std::size_t got = 0;
             if (libdeflate_zlib_decompress(scratch.inflater.get(), packed.data(), packed.size(),
-                                           scratch.inflated.data(), unpacked, &got) != LIBDEFLATE_SUCCESS ||
-                got != unpacked) {
+                                           scratch.inflated.data(), size, &got) != LIBDEFLATE_SUCCESS ||
+                got != size) {
                 return false;
             }
         }
-        undo_differences(scratch.inflated);
+        if (packing != Packing::pxr24) {
+            undo_differences(scratch.inflated);
+        }
         return true;
     }
 
     const PartSource& source_;
     ChunkSlices layout_;
+    Packing packing_;
     tbb::enumerable_thread_specific<Scratch> scratch_;
 };
 
@@ -150,9 +170,11 @@ std::unique_ptr<PartDecoder> make_chunk_decoder(const PartSource& source) {
 std::unique_ptr<PartDecoder> make_decoder(const PartSource& source) {
     switch (source.compression) {
     case EXR_COMPRESSION_NONE:
+        return make_stored_decoder(source);
     case EXR_COMPRESSION_RLE:
     case EXR_COMPRESSION_ZIPS:
     case EXR_COMPRESSION_ZIP:
+    case EXR_COMPRESSION_PXR24:
         return make_chunk_decoder(source);
     default:
         return make_library_decoder(source);

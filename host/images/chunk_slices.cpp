@@ -34,11 +34,13 @@ ChunkSlices find_slices(const PartSource& source) {
         const SampleType type = sample_type(channel.pixel_type);
         for (std::size_t target = 0; target < source.targets.size(); ++target) {
             if (!found[target] && source.targets[target].channel == channel.name.str) {
-                result.slices.push_back({type, result.pixel_bytes, source.targets[target].plane});
+                result.slices.push_back(
+                    {type, result.pixel_bytes, result.pxr24_pixel_bytes, source.targets[target].plane});
                 found[target] = true;
             }
         }
         result.pixel_bytes += bytes_of(type);
+        result.pxr24_pixel_bytes += pxr24_bytes_of(type);
     }
     const auto missing = std::find(found.begin(), found.end(), false);
     if (missing != found.end()) {
@@ -46,6 +48,17 @@ ChunkSlices find_slices(const PartSource& source) {
                               source.targets[static_cast<std::size_t>(missing - found.begin())].channel));
     }
     return result;
+}
+
+std::size_t bytes_of_chunk(const ChunkGrid& grid, const ChunkSlices& layout) {
+    return layout.pixel_bytes * static_cast<std::size_t>(grid.chunk_width) *
+           static_cast<std::size_t>(grid.chunk_height);
+}
+
+void fail_chunk(const PartSource& source, std::size_t chunk, const std::string& why) {
+    const std::string label = source.file->part_label(source.part);
+    source.file->fail(fmt::format("{}pixels of chunk {} are damaged{}; render or copy the file again",
+                                  label.empty() ? "" : label + ": ", chunk, why.empty() ? "" : " (" + why + ")"));
 }
 
 LineRange lines_in_band(const Window& chunk, const Band& band) {

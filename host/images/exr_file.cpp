@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <array>
@@ -210,6 +211,26 @@ void ExrFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
     }
     if (static_cast<std::size_t>(got) != bytes.size()) {
         fail(fmt::format("ends before its pixels do; {}", again));
+    }
+}
+
+void ExrFile::read_pieces(std::uint64_t offset, std::span<const std::span<std::byte>> pieces) const {
+    std::array<iovec, most_pieces> vectors; // NOLINT(cppcoreguidelines-pro-type-member-init): filled as far as used
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        vectors.at(i) = {pieces[i].data(), pieces[i].size()};
+        size += pieces[i].size();
+    }
+    const ssize_t got =
+        ::preadv(state_->descriptor, vectors.data(), static_cast<int>(pieces.size()), static_cast<off_t>(offset));
+    if (got >= 0 && static_cast<std::size_t>(got) == size) {
+        state_->bytes_read.fetch_add(size, std::memory_order_relaxed);
+        return;
+    }
+    // Interrupted, or the file has ended: the long way says which.
+    for (const std::span<std::byte> piece : pieces) {
+        read_at(offset, piece);
+        offset += piece.size();
     }
 }
 

@@ -36,6 +36,10 @@ class ExrFile {
 
     /// Fills `bytes` from `offset`; throws RuntimeFailure when the file ends before.
     void read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
+    /// The same for pieces of memory that take, one after the other, what lies together in the file; at most
+    /// most_pieces.
+    void read_pieces(std::uint64_t offset, std::span<const std::span<std::byte>> pieces) const;
+    static constexpr std::size_t most_pieces = 512;
     /// Throws RuntimeFailure "FILE: what".
     [[noreturn]] void fail(std::string_view what) const;
     /// What OpenEXRCore said last, for messages.

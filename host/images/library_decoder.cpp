@@ -10,7 +10,6 @@
 #include <ImfMultiPartInputFile.h>
 #include <ImfTileDescription.h>
 #include <ImfTiledInputPart.h>
-#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
@@ -216,7 +215,8 @@ class LibraryReader {
 
 class LibraryDecoder : public PartDecoder {
   public:
-    explicit LibraryDecoder(const PartSource& source) : source_(source), pixel_bytes_(find_slices(source).pixel_bytes) {
+    explicit LibraryDecoder(const PartSource& source)
+        : source_(source), chunk_bytes_(bytes_of_chunk(source.grid, find_slices(source))) {
         for (const PlaneTarget& target : source.targets) {
             const auto first = std::find_if(targets_.begin(), targets_.end(),
                                             [&](const PlaneTarget& known) { return known.channel == target.channel; });
@@ -228,10 +228,7 @@ class LibraryDecoder : public PartDecoder {
         }
     }
 
-    [[nodiscard]] std::size_t chunk_bytes() const override {
-        return pixel_bytes_ * static_cast<std::size_t>(source_.grid.chunk_width) *
-               static_cast<std::size_t>(source_.grid.chunk_height);
-    }
+    [[nodiscard]] std::size_t chunk_bytes() const override { return chunk_bytes_; }
 
     void decode(std::size_t first, std::size_t last, const Band& band) override {
         for (std::size_t chunk = first; chunk < last; ++chunk) {
@@ -244,9 +241,7 @@ class LibraryDecoder : public PartDecoder {
             } catch (const std::bad_alloc&) {
                 throw;
             } catch (const std::exception& error) {
-                const std::string label = source_.file->part_label(source_.part);
-                source_.file->fail(fmt::format("{}pixels of chunk {} are damaged ({}); render or copy the file again",
-                                               label.empty() ? "" : label + ": ", chunk, error.what()));
+                fail_chunk(source_, chunk, error.what());
             }
         }
     }
@@ -269,7 +264,7 @@ class LibraryDecoder : public PartDecoder {
     }
 
     const PartSource& source_;
-    std::size_t pixel_bytes_;
+    std::size_t chunk_bytes_;
     std::vector<PlaneTarget> targets_;        ///< each channel once, as the library wants them
     std::vector<std::pair<int, int>> copies_; ///< planes of channels that are wanted again
     tbb::enumerable_thread_specific<std::unique_ptr<LibraryReader>> readers_;

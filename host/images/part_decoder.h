@@ -1,6 +1,6 @@
-// Private to host/images: pixels of one part into float planes, chunk by chunk. Two ways in: our own for uncompressed,
-// RLE and ZIP data, which unpacks the needed channels of a chunk straight into their planes, and the OpenEXR library
-// for every other compression.
+// Private to host/images: pixels of one part into float planes, chunk by chunk. Our own ways in, which unpack the
+// needed channels of a chunk straight into their planes, for uncompressed, RLE, ZIP and PXR24 data, and the OpenEXR
+// library for every other compression.
 #pragma once
 
 #include "host/base/plane_slab.h"
@@ -59,9 +59,13 @@ class PartDecoder {
     [[nodiscard]] virtual std::size_t chunk_bytes() const = 0;
 };
 
-/// Uncompressed, RLE, ZIPS and ZIP by ourselves, the rest by the OpenEXR library. `source` must outlive the decoder.
+/// The one for the part's compression. `source` must outlive the decoder.
 [[nodiscard]] std::unique_ptr<PartDecoder> make_decoder(const PartSource& source);
+/// Uncompressed.
+[[nodiscard]] std::unique_ptr<PartDecoder> make_stored_decoder(const PartSource& source);
+/// RLE, ZIPS, ZIP and PXR24.
 [[nodiscard]] std::unique_ptr<PartDecoder> make_chunk_decoder(const PartSource& source);
+/// Any compression.
 [[nodiscard]] std::unique_ptr<PartDecoder> make_library_decoder(const PartSource& source);
 
 } // namespace clshade

@@ -1,5 +1,7 @@
 #include "host/images/unpack.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -122,6 +124,40 @@ void merge_row(SampleType type, const std::byte* even, const std::byte* odd, std
         for (std::size_t i = 0; i < count; ++i) {
             out[i] = static_cast<float>(load<std::uint32_t>(merged + 4 * i));
         }
+    }
+}
+
+void undo_pxr24_row(SampleType type, const std::byte* bytes, std::size_t count, float* out) {
+    const auto at = [&](std::size_t byte, std::size_t i) {
+        return std::to_integer<std::uint32_t>(bytes[byte * count + i]);
+    };
+    std::uint32_t sample = 0;
+    switch (type) {
+    case SampleType::half: {
+        // In blocks, so that the processor's own conversion can be used.
+        std::array<std::uint16_t, 512> halves{};
+        for (std::size_t first = 0; first < count; first += halves.size()) {
+            const std::size_t block = std::min(halves.size(), count - first);
+            for (std::size_t i = 0; i < block; ++i) {
+                sample += at(0, first + i) << 8U | at(1, first + i);
+                halves[i] = static_cast<std::uint16_t>(sample);
+            }
+            unpack_loops().widen_halves(reinterpret_cast<const std::byte*>(halves.data()), block, out + first);
+        }
+        break;
+    }
+    case SampleType::uint32:
+        for (std::size_t i = 0; i < count; ++i) {
+            sample += at(0, i) << 24U | at(1, i) << 16U | at(2, i) << 8U | at(3, i);
+            out[i] = static_cast<float>(sample);
+        }
+        break;
+    case SampleType::float32:
+        for (std::size_t i = 0; i < count; ++i) {
+            sample += at(0, i) << 24U | at(1, i) << 16U | at(2, i) << 8U;
+            out[i] = std::bit_cast<float>(sample);
+        }
+        break;
     }
 }
 

@@ -38,6 +38,15 @@ void unpack_row(SampleType type, const std::byte* samples, std::size_t count, fl
 /// The same for samples whose even bytes lie at `even` and odd bytes at `odd`.
 void merge_row(SampleType type, const std::byte* even, const std::byte* odd, std::size_t count, float* out);
 
+/// Bytes that PXR24 keeps of a sample: of a float the upper three.
+[[nodiscard]] constexpr std::size_t pxr24_bytes_of(SampleType type) {
+    return type == SampleType::half ? 2 : (type == SampleType::float32 ? 3 : 4);
+}
+
+/// A row as PXR24 packs it before it deflates: differences of samples to their left neighbours (modulo 2^32), first all
+/// their highest bytes, then the next lower ones.
+void undo_pxr24_row(SampleType type, const std::byte* bytes, std::size_t count, float* out);
+
 /// Each byte but the first was stored as its difference to the one before, plus 128 (modulo 256).
 void undo_differences(std::span<std::byte> bytes);
 
