@@ -20,7 +20,8 @@ namespace clshade {
 struct ExrSettings {
     bool half = true;                ///< -d half|float
     std::string compression = "zip"; ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab
-    std::optional<double> level;     ///< zip: 1..9, dwa: lossiness
+    std::optional<double>
+        level; ///< zip, zips: 1 (quick) to 9 (small), as libdeflate counts them, 4 if absent; dwa: lossiness, 45
     int threads = 1;
 };
 

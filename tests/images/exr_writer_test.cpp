@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <half.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -241,6 +242,7 @@ TEST(ExrWriter, LongNamesAreMarkedInTheHeader) {
 }
 
 TEST(ExrWriter, TheSameBytesInAnyBandsOnAnyThreads) {
+    const tbb::global_control seven(tbb::global_control::max_allowed_parallelism, 7);
     const TemporaryFolder folder;
     const PlaneSlab slab = example(90, 530);
     const OutputImage image = image_of(slab, 3, -7);

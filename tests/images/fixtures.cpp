@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <half.h>
 #include <sys/wait.h>
+#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -247,6 +248,9 @@ std::string failure_of(const std::function<void()>& action) {
 }
 
 int in_child(const std::function<int()>& action) {
+    // A child has none of the parent's threads, but whatever they had locked. So TBB's go first; it starts them anew.
+    tbb::task_scheduler_handle threads{tbb::attach{}};
+    EXPECT_TRUE(tbb::finalize(threads, std::nothrow));
     const pid_t child = ::fork();
     if (child == 0) {
         int result = 99;
