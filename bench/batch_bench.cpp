@@ -25,7 +25,7 @@ namespace clshade {
 
 namespace {
 
-constexpr int frames_per_turn = 12; ///< so that decoding the first and encoding the last count little
+constexpr int frames_per_turn = 12;        ///< so that decoding the first and encoding the last count little
 constexpr std::size_t distinct_frames = 4; ///< the others are copies: making a frame takes longer than shading it
 constexpr double library_limit = 1.15;
 constexpr double oiio_half_zip_limit = 0.5;

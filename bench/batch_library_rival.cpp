@@ -126,7 +126,7 @@ class CoreDecoder {
     std::span<const std::string> channels_;
     PlaneSlab& planes_;
     exr_context_t context_ = nullptr;
-    exr_decode_pipeline_t pipeline_ = EXR_DECODE_PIPELINE_INITIALIZER;
+    exr_decode_pipeline_t pipeline_{}; ///< zeros, as EXR_DECODE_PIPELINE_INITIALIZER has it
     bool started_ = false;
 };
 
@@ -179,15 +179,15 @@ Shape shape_of(LibraryPath path, int threads) {
     return {threads, 0};
 }
 
-float sample_of(const StoredPicture& picture, std::size_t index) {
+double sample_of(const StoredPicture& picture, std::size_t index) {
     if (!picture.half) {
         float value = 0.0F;
         std::memcpy(&value, picture.samples.data() + index * sizeof(float), sizeof(float));
-        return value;
+        return static_cast<double>(value);
     }
     half value;
     std::memcpy(&value, picture.samples.data() + index * sizeof(half), sizeof(half));
-    return value;
+    return static_cast<double>(static_cast<float>(value));
 }
 
 } // namespace
@@ -295,7 +295,10 @@ double stored_difference(const StoredPicture& a, const StoredPicture& b) {
         const double ours = sample_of(a, i);
         const double theirs = sample_of(b, i);
         const double difference = std::abs(ours - theirs) / (1e-3 + std::abs(theirs));
-        worst = std::isnan(difference) ? infinite : std::max(worst, difference);
+        if (std::isnan(difference)) {
+            return infinite;
+        }
+        worst = std::max(worst, difference);
     }
     return worst;
 }

@@ -14,7 +14,7 @@ struct OiioWork {
     std::vector<std::filesystem::path> outputs;
     bool half = true; ///< of the outputs
     std::string compression;
-    rivals::DistantLight light; ///< unit vector to it, irradiance
+    rivals::DistantLight light{}; ///< unit vector to it, irradiance
     int threads = 1;
 };
 

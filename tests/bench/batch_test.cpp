@@ -123,7 +123,7 @@ TEST(BatchSequence, TheHeaderHasTheCameraThatSawIt) {
     ASSERT_TRUE(view->has_rays);
     const PlaneSlab planes = whole_frame(2);
     for (const auto& [x, y] : {std::pair{5, 50}, {48, 30}, {90, 40}}) {
-        const double depth = planes.at(plane_of("Z"), x, y);
+        const double depth = static_cast<double>(planes.at(plane_of("Z"), x, y));
         const glm::dvec3 seen =
             view->eye + depth * (view->direction + (x + 0.5) * view->direction_dx + (y + 0.5) * view->direction_dy);
         // Matrices and planes are floats: a few of their roundings, 10 units away.
@@ -138,7 +138,9 @@ TEST(BatchRows, AreThereOnlyWhereTheFilterSaysBatch) {
     EXPECT_THAT(select_batch_rows(options), IsEmpty());
     options.filter = "^batch\\.(half|float)\\.";
     std::vector<std::string> keys;
-    for (const BatchRow& row : select_batch_rows(options)) {
+    const std::vector<BatchRow> rows = select_batch_rows(options);
+    keys.reserve(rows.size());
+    for (const BatchRow& row : rows) {
         keys.push_back(row.key());
     }
     EXPECT_THAT(keys,
@@ -159,6 +161,7 @@ TEST(BatchRivals, EveryWayOfTheLibraryDecodesWhatWeRead) {
             const ImageLayout layout = read_layout(sequence.first());
             const std::vector<int> indices{0, 7, 15};
             std::vector<std::string> names;
+            names.reserve(indices.size());
             for (const int index : indices) {
                 names.push_back(layout.channels[static_cast<std::size_t>(index)].file_name);
             }
