@@ -4,9 +4,12 @@
 #include "tests/cli/gbuffers.h"
 #include "tests/device/temporary_folder.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -165,6 +168,28 @@ TEST_F(RunBatch, AnInterruptionLeavesWholeFramesOnly) {
     for (const std::string& name : names_in(folder_.path() / "out")) {
         EXPECT_TRUE(read_completion_stamp(folder_.path() / "out" / name).has_value()) << name;
     }
+}
+
+// What killed processes left behind goes away; what living ones write stays.
+TEST_F(RunBatch, ClearsAwayWhatKilledRunsLeft) {
+    const std::vector<FrameJob> all = jobs();
+    const std::filesystem::path out = folder_.path() / "out";
+    const std::filesystem::path stale = out / ".out.0003.exr.4242-7.tmp";
+    const std::filesystem::path living = out / ".out.0004.exr.4242-8.tmp";
+    const std::filesystem::path foreign = out / ".other.0003.exr.4242-7.tmp";
+    for (const std::filesystem::path& file : {stale, living, foreign}) {
+        std::ofstream(file) << "half a picture";
+    }
+    const int descriptor = ::open(living.c_str(), O_RDONLY | O_CLOEXEC);
+    ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
+    BatchSettings settings;
+    TestResources resources;
+    TestListener listener;
+    run_batch(all, scene_, settings, resources, listener);
+    EXPECT_FALSE(std::filesystem::exists(stale));
+    EXPECT_TRUE(std::filesystem::exists(living));
+    EXPECT_TRUE(std::filesystem::exists(foreign)) << "not of this run's files";
+    ::close(descriptor);
 }
 
 // Frames of other sizes in one sequence: memory is planned anew, nothing of the last frame shows.
