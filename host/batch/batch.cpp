@@ -160,6 +160,14 @@ void run_batch(std::span<const FrameJob> jobs, const RunScene& scene, const Batc
                BatchResources& resources, BatchListener& listener) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(std::max(settings.threads, 1)));
+    std::vector<std::filesystem::path> outputs;
+    for (const FrameJob& job : jobs) {
+        outputs.push_back(job.output);
+        if (!job.preview.empty()) {
+            outputs.push_back(job.preview);
+        }
+    }
+    remove_stale_temporaries(outputs);
     BatchRun(jobs, scene, settings, resources, listener).run();
 }
 

@@ -47,6 +47,8 @@ class BatchResources {
     /// The picture read and filtered; null for a scene without environment. Times go to `stages`. Throws as reading
     /// and filtering do.
     virtual const EnvironmentInput* environment(StageTimes& stages) = 0;
+    /// Where the environment's maps came from, "built" or "from the cache"; told once, empty after that.
+    virtual std::string take_environment_origin() { return {}; }
     /// Before a frame's kernel is built, for --dump-kernel.
     virtual void about_to_shade(const Frame& /*frame*/) {}
 };

@@ -129,6 +129,7 @@ Shader& FrameStages::prepare(FrameWork& work) {
     work.environment = resources_.environment(work.outcome.stages);
     if (work.environment != nullptr) {
         attach_environment(work.loaded.frame, scene_.scene, work.environment->image, work.environment->maps);
+        work.outcome.environment = resources_.take_environment_origin();
         if (!environment_told_) {
             append(work.outcome.warnings, work.environment->warnings);
             environment_told_ = true;
@@ -144,11 +145,12 @@ void FrameStages::account(FrameWork& work, const ShadedImage& shaded, double ela
     FrameOutcome& outcome = work.outcome;
     const double kernel = sum_of(shaded.kernel_times);
     const bool first = programs_.insert(shaded.identity).second;
-    const double build = first ? shaded.build_milliseconds : 0.0;
-    outcome.stages.add("build", build);
+    const double rest = std::max(0.0, elapsed - shaded.transfer_milliseconds - kernel);
+    // What the driver compiles, it compiles at the first launch; then come the maps for one exponent each.
+    outcome.stages.add("build", first ? rest : 0.0);
     outcome.stages.add("transfer", shaded.transfer_milliseconds);
     outcome.stages.add("kernel", kernel);
-    outcome.stages.add("prepare", std::max(0.0, elapsed - build - shaded.transfer_milliseconds - kernel));
+    outcome.stages.add("prepare", first ? 0.0 : rest);
     outcome.kernels.insert(outcome.kernels.end(), shaded.kernel_times.begin(), shaded.kernel_times.end());
     outcome.counts.nonfinite += shaded.counts.nonfinite;
     outcome.counts.clamped += shaded.counts.clamped;

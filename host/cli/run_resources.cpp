@@ -1,16 +1,12 @@
 #include "host/cli/run_resources.h"
 
-#include <spdlog/spdlog.h>
-
 namespace clshade::cli {
 
 const EnvironmentInput* RunResources::environment(StageTimes& stages) {
     const EnvironmentInput* input = environment_.read(stages);
     if (input != nullptr) {
         const std::string origin = environment_.prefilter(shader(), progress_, stages);
-        if (!origin.empty()) {
-            spdlog::info("environment {}: pre-filtered maps {}", input->name, origin);
-        }
+        origin_ = origin.empty() ? origin_ : origin;
     }
     return input;
 }

@@ -7,6 +7,9 @@
 #include "host/cli/run_environment.h"
 #include "host/cli/session.h"
 
+#include <string>
+#include <utility>
+
 namespace clshade::cli {
 
 /// Opens the device and reads the environment when a frame first asks for them. Refers to its arguments.
@@ -20,6 +23,7 @@ class RunResources final : public BatchResources {
     Shader& shader() override { return session_.shader(aovs_); }
     const DeviceInfo& device() override { return session_.info(); }
     const EnvironmentInput* environment(StageTimes& stages) override;
+    std::string take_environment_origin() override { return std::exchange(origin_, {}); }
     void about_to_shade(const Frame& frame) override;
 
     /// Reading or filtering the environment has thrown: no other frame could do better.
@@ -31,6 +35,7 @@ class RunResources final : public BatchResources {
     Progress& progress_;
     RunEnvironment environment_;
     KernelDump* dump_;
+    std::string origin_;
 };
 
 } // namespace clshade::cli

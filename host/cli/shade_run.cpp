@@ -201,7 +201,8 @@ std::string ShadeRun::times_text(const FrameOutcome& outcome) const {
         for (const auto& [stage, milliseconds] : outcome.stages.stages()) {
             parts += fmt::format("{}{} {:.1f}", parts.empty() ? "" : ", ", stage, milliseconds);
         }
-        text += fmt::format(" ({}{}{})", parts, outcome.build.empty() ? "" : "; kernel ", outcome.build);
+        text += fmt::format(" ({}{}{}{}{})", parts, outcome.build.empty() ? "" : "; kernel ", outcome.build,
+                            outcome.environment.empty() ? "" : "; environment ", outcome.environment);
     }
     return text;
 }

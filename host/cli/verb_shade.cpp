@@ -13,6 +13,7 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <array>
 #include <memory>
@@ -141,6 +142,9 @@ ExitCode dry_run(const ShadeOptions& options, const std::vector<FrameJob>& jobs,
                 const PlannedInput input = plan_input(job.input, scene.scene, settings.view, settings.keep, job.number);
                 if (scene.scene.environment && !environment) {
                     environment = read_environment(scene.scene, options.common.max_memory);
+                    for (const std::string& warning : environment->warnings) {
+                        spdlog::warn(warning);
+                    }
                 }
                 fmt::print("{}", plan_text(input, job, scene, environment ? &*environment : nullptr, session.info()));
             }

@@ -27,6 +27,10 @@ namespace clshade {
 
 namespace {
 
+// Of the library, the C++ interface: the decoders of OpenEXRCore 3.1.5 survive damaged data as well (found by changing
+// bytes of small files under AddressSanitizer), but that of PIZ takes 1.6 times as long, those of B44 refuse sound
+// pictures of a few pixels, and there is none for DWA.
+
 /// The library's view of the file that is open already: what stands under its name may be another by now.
 class LibraryStream : public Imf::IStream {
   public:

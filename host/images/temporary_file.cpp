@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,6 +15,10 @@
 #include <climits>
 #include <cstdio>
 #include <cstring>
+#include <exception>
+#include <map>
+#include <set>
+#include <string_view>
 #include <system_error>
 
 namespace clshade {
@@ -73,14 +78,53 @@ void forget_temporary(int slot) {
         "{}: cannot be written: too many files at once or too long a path; use fewer workers", target.string()));
 }
 
-/// A name that nobody else uses beside `file`. Long names are cut: a file's name has at most 255 bytes.
-std::filesystem::path name_beside(const std::filesystem::path& file) {
-    return file.parent_path() /
-           fmt::format(".{}.{}-{}.tmp", file.filename().string().substr(0, 200), ::getpid(), next_number++);
+/// What a temporary's name begins with, up to the process's number.
+std::string temporary_prefix(const std::filesystem::path& file) {
+    return fmt::format(".{}.", file.filename().string().substr(0, 200));
 }
 
-/// Where the bytes shall lie in the end: renaming onto a link would replace the link, not the file. The file need not be
-/// there yet.
+/// A name that nobody else uses beside `file`. Long names are cut: a file's name has at most 255 bytes.
+std::filesystem::path name_beside(const std::filesystem::path& file) {
+    return file.parent_path() / fmt::format("{}{}-{}.tmp", temporary_prefix(file), ::getpid(), next_number++);
+}
+
+/// Locks a temporary for as long as this process has it open: that is how others tell it from one whose writer was
+/// killed. False: somebody took it for such a one before the lock was there, and has removed it. File systems without
+/// locks go without.
+bool lock_own(int descriptor) {
+    static_cast<void>(::flock(descriptor, LOCK_EX | LOCK_NB));
+    struct stat info {};
+    return ::fstat(descriptor, &info) != 0 || info.st_nlink > 0;
+}
+
+/// Removes a temporary unless its writer lives.
+void remove_if_stale(const std::filesystem::path& file) {
+    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (descriptor < 0) {
+        return;
+    }
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+        ::unlink(file.c_str());
+    }
+    ::close(descriptor);
+}
+
+/// "<pid>-<n>.tmp"
+bool is_temporary_suffix(std::string_view text) {
+    constexpr std::string_view end = ".tmp";
+    if (!text.ends_with(end)) {
+        return false;
+    }
+    text.remove_suffix(end.size());
+    const std::size_t dash = text.find('-');
+    const auto is_number = [](std::string_view digits) {
+        return !digits.empty() && digits.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    return dash != std::string_view::npos && is_number(text.substr(0, dash)) && is_number(text.substr(dash + 1));
+}
+
+/// Where the bytes shall lie in the end: renaming onto a link would replace the link, not the file. The file need not
+/// be there yet.
 std::filesystem::path followed(const std::filesystem::path& file) {
     constexpr int most_links = 40; // as in Linux
     std::error_code error;
@@ -110,6 +154,29 @@ void remove_temporaries() noexcept {
     }
 }
 
+void remove_stale_temporaries(std::span<const std::filesystem::path> targets) noexcept {
+    try {
+        std::map<std::filesystem::path, std::set<std::string>> prefixes; // by folder
+        for (const std::filesystem::path& target : targets) {
+            const std::filesystem::path real = followed(target);
+            prefixes[real.has_parent_path() ? real.parent_path() : "."].insert(temporary_prefix(real));
+        }
+        for (const auto& [folder, wanted] : prefixes) {
+            std::error_code error;
+            for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+                const std::string name = it->path().filename().string();
+                const std::size_t dash = name.rfind('-');
+                const std::size_t dot = dash == std::string::npos ? dash : name.rfind('.', dash);
+                if (dot != std::string::npos && wanted.contains(name.substr(0, dot + 1)) &&
+                    is_temporary_suffix(std::string_view(name).substr(dot + 1))) {
+                    remove_if_stale(it->path());
+                }
+            }
+        }
+    } catch (const std::exception&) { // NOLINT(bugprone-empty-catch): a tidy folder is a wish
+    }
+}
+
 TemporaryFile::TemporaryFile(const std::filesystem::path& target) : target_(target), final_(followed(target)) {
     buffer_.reserve(buffer_size);
     for (int attempt = 0; attempt < 100; ++attempt) {
@@ -119,10 +186,14 @@ TemporaryFile::TemporaryFile(const std::filesystem::path& target) : target_(targ
             fail_crowded(target_);
         }
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ >= 0) {
+        if (descriptor_ >= 0 && lock_own(descriptor_)) {
             return;
         }
-        const int error = errno;
+        const int error = descriptor_ >= 0 ? EEXIST : errno;
+        if (descriptor_ >= 0) {
+            ::close(descriptor_);
+            descriptor_ = -1;
+        }
         forget_temporary(slot_);
         slot_ = -1;
         if (error != EEXIST) { // left behind by a process of the same number that was killed
