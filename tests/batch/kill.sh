@@ -100,11 +100,14 @@ while [ "$moment" -lt "$moments" ]; do
     if [ "$code" -ne 137 ]; then
         [ "$code" -eq 0 ] || fail "moment $moment: exit code $code"
         late=$((late + 1))
+        length=$((length * 9 / 10)) # the machine has less to do now than when it was measured
     elif [ "$written" -eq 0 ]; then
         early=$((early + 1))
+        length=$((length * 26 / 25))
     else
         midst=$((midst + 1))
     fi
+    if [ $((moment % 4)) -eq 0 ]; then long=$length; else short=$length; fi
     whole_images "$dir/good" "$dir/out"
     (shade "$cache" "$dir/out" -u) || fail "moment $moment ($delay s): -u: exit code $?"
     same_images "$dir/good" "$dir/out"
