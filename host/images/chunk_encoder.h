@@ -57,7 +57,8 @@ class ChunkEncoder {
 
 /// The image's channels need no slab.
 [[nodiscard]] std::unique_ptr<ChunkEncoder> make_chunk_encoder(const OutputImage& image, const ExrSettings& settings);
-/// By the OpenEXR library; for every compression.
+/// By the OpenEXR library; for every compression. Its own pool of threads, which OpenImageIO starts when it opens an
+/// EXR, is stopped: TBB alone spreads the work.
 [[nodiscard]] std::unique_ptr<ChunkEncoder> make_library_encoder(const OutputImage& image, const ExrSettings& settings);
 
 /// OpenEXR's run lengths (unpack.h has the way back). 0 unless the result is shorter than `bytes`; `out` has its size.

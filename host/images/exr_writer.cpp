@@ -184,7 +184,7 @@ void ExrWriter::State::write(std::span<const OutputChannel> channels, int first,
     check_band(channels, first, rows);
     // Groups leave the pipeline in the order in which they entered it, so that those on their way follow one another
     // and none of them has the place of another in the ring.
-    const auto ring = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency());
+    const std::size_t ring = std::size_t{2} * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
     if (groups.size() < ring) {
         groups.resize(ring);
     }

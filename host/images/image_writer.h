@@ -20,8 +20,8 @@ namespace clshade {
 struct ExrSettings {
     bool half = true;                ///< -d half|float
     std::string compression = "zip"; ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab
-    std::optional<double>
-        level; ///< zip, zips: 1 (quick) to 9 (small), as libdeflate counts them, 4 if absent; dwa: lossiness, 45
+    /// zip, zips: libdeflate's 1 (quick) to 9 (small), 4 if absent. dwaa, dwab: lossiness, 45 if absent.
+    std::optional<double> level;
     int threads = 1;
 };
 

@@ -8,6 +8,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
+#include <ImfThreading.h>
 
 #include <algorithm>
 #include <cstring>
@@ -60,7 +61,11 @@ class LibraryEncoder final : public ChunkEncoder {
   public:
     LibraryEncoder(const OutputImage& image, const ExrSettings& settings)
         : shape_(chunk_shape(image, settings)), window_(image.data_window), channels_(image.channels),
-          settings_(settings) {}
+          settings_(settings) {
+        if (Imf::globalThreadCount() != 0) {
+            Imf::setGlobalThreadCount(0);
+        }
+    }
 
     EncodedChunk encode(const ChunkRows& rows, std::byte* out) override {
         const auto width = static_cast<std::size_t>(shape_.width);

@@ -17,7 +17,6 @@ namespace clshade {
 namespace {
 
 using namespace testing;
-using ::testing::HasSubstr;
 
 /// A small picture with noise in it.
 PlaneSlab example(int width, int height) {

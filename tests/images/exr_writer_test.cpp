@@ -17,7 +17,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -115,8 +117,8 @@ void write_with_library(const std::filesystem::path& file, const OutputImage& im
 std::vector<float> read_with_library(const std::filesystem::path& file, const std::string& channel) {
     Imf::InputFile input(file.c_str());
     const Imath::Box2i window = input.header().dataWindow();
-    const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);
-    const auto height = static_cast<std::size_t>(window.max.y - window.min.y + 1);
+    const auto width = static_cast<std::size_t>(window.size().x) + 1;
+    const auto height = static_cast<std::size_t>(window.size().y) + 1;
     std::vector<float> values(width * height);
     const std::ptrdiff_t skipped = window.min.x + static_cast<std::ptrdiff_t>(width) * window.min.y;
     Imf::FrameBuffer buffer;
@@ -341,14 +343,13 @@ TEST(ExrWriter, OneOfManyWinsARace) {
     for (int round = 0; round < 10; ++round) {
         std::filesystem::remove(folder / "a.exr");
         std::atomic<int> winners{0};
-        std::vector<std::thread> threads;
-        for (int i = 0; i < 8; ++i) {
-            threads.emplace_back([&] {
-                if (!write_exr(folder / "a.exr", image_of(slab), {}, Replace::no).existed) {
-                    ++winners;
-                }
-            });
-        }
+        const auto compete = [&] {
+            if (!write_exr(folder / "a.exr", image_of(slab), {}, Replace::no).existed) {
+                ++winners;
+            }
+        };
+        std::vector<std::thread> threads(8);
+        std::generate(threads.begin(), threads.end(), [&] { return std::thread(compete); });
         for (std::thread& thread : threads) {
             thread.join();
         }
@@ -409,11 +410,11 @@ TEST(Runs, ComeBackAndShrink) {
     std::mt19937 random(3);
     for (int round = 0; round < 2000; ++round) {
         std::vector<std::byte> bytes(1 + random() % 600);
-        const unsigned kinds = 1 + random() % 4;
+        const std::size_t kinds = 1 + random() % 4;
         std::size_t i = 0;
         while (i < bytes.size()) {
             const auto value = static_cast<std::byte>(random() % (2 * kinds));
-            for (unsigned n = random() % (200 / kinds) + 1; n > 0 && i < bytes.size(); --n) {
+            for (std::size_t n = random() % (200 / kinds) + 1; n > 0 && i < bytes.size(); --n) {
                 bytes[i++] = value;
             }
         }

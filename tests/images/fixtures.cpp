@@ -6,6 +6,7 @@
 #include <ImfOutputFile.h>
 #include <ImfOutputPart.h>
 #include <ImfPartType.h>
+#include <ImfThreading.h>
 #include <ImfTiledOutputFile.h>
 #include <ImfTiledOutputPart.h>
 #include <gtest/gtest.h>
@@ -248,7 +249,9 @@ std::string failure_of(const std::function<void()>& action) {
 }
 
 int in_child(const std::function<int()>& action) {
-    // A child has none of the parent's threads, but whatever they had locked. So TBB's go first; it starts them anew.
+    // A child has none of the parent's threads, but whatever they had locked. So TBB's go first, and those of OpenEXR,
+    // which OpenImageIO starts; TBB starts them anew.
+    Imf::setGlobalThreadCount(0);
     tbb::task_scheduler_handle threads{tbb::attach{}};
     EXPECT_TRUE(tbb::finalize(threads, std::nothrow));
     const pid_t child = ::fork();
