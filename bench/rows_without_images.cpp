@@ -4,6 +4,10 @@
 
 namespace clshade {
 
+std::string BatchRow::key() const {
+    return {}; // there is none
+}
+
 std::vector<BatchRow> select_batch_rows(const BenchOptions& /*options*/) {
     return {};
 }
