@@ -50,9 +50,9 @@ void add_common_options(CLI::App& app, CommonOptions& options, CommonGroup shown
            [o](const std::string& text) {
                o->max_memory = static_cast<std::uint64_t>(parse_whole("--max-mem", text, 1, 1 << 30)) << 20;
            },
-           "most memory for planes on the device, and for an environment's picture, in MiB; larger frames are shaded "
-           "in "
-           "bands, larger pictures halved. Default: what the device has")
+           "most memory of the process (and of a GPU for planes), in MiB: decides how many frames are under way at "
+           "once; "
+           "larger frames are shaded in bands, larger environments halved. Default: half of the machine's")
         ->group(running)
         ->type_name("MB");
     app.add_option_function<std::string>(
@@ -83,7 +83,9 @@ void add_common_options(CLI::App& app, CommonOptions& options, CommonGroup shown
            "auto | bar | plain | openjd | alf | none. Default: auto (a bar on a terminal, else none)")
         ->group(running)
         ->type_name("MODE");
-    app.add_flag("--runstats", o->run_stats, "time per stage and per kernel, peak memory")->group(running);
+    app.add_flag("--runstats", o->run_stats,
+                 "time per stage and per kernel, bytes, peak memory, ratio to decoding and encoding alone")
+        ->group(running);
     app.add_option("--json", o->json_file, "also write a machine-readable report")
         ->group(common_group)
         ->type_name("FILE");

@@ -93,6 +93,10 @@ ExitCode ShadeRun::run(const std::vector<FrameJob>& jobs) {
     stats_.finish(watch.milliseconds(), settings_.threads);
     report_.set("run", stats_.json());
     progress_.clear();
+    if (repeated_ > 0) {
+        spdlog::warn("the same warnings came {} times more in later frames; -v prints them, --json has them by frame",
+                     repeated_);
+    }
     if (common_.max_memory > 0 && peak_memory() > static_cast<double>(common_.max_memory) && !common_.quiet) {
         spdlog::warn(
             "--max-mem {}: {:.0f} MiB were used at most; program, kernels and the smallest band take that much",
@@ -173,7 +177,12 @@ bool ShadeRun::goes_on_after(const FrameJob& job, const Error& error) {
 void ShadeRun::tell(const FrameJob& job, const FrameOutcome& outcome) {
     progress_.print([&] {
         for (const std::string& warning : outcome.warnings) {
-            spdlog::warn("{}{}", label_of(job), warning);
+            // What a whole sequence suffers from is said once.
+            if (told_.insert(warning).second || common_.verbosity > 0) {
+                spdlog::warn("{}{}", label_of(job), warning);
+            } else {
+                ++repeated_;
+            }
         }
         for (const std::string& note : outcome.notes) {
             spdlog::info("{}{}: {}", label_of(job), job.input.string(), note);

@@ -11,6 +11,7 @@
 #include "host/cli/session.h"
 #include "host/cli/signals.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,8 @@ class ShadeRun final : private BatchListener {
     std::size_t finished_ = 0;
     std::vector<std::string> failures_; ///< frames, in words
     std::size_t skipped_bad_ = 0;
+    std::set<std::string> told_; ///< warnings
+    std::size_t repeated_ = 0;
     ExitCode first_failure_ = ExitCode::ok;
 };
 

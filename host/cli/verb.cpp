@@ -14,7 +14,20 @@ namespace {
 
 constexpr std::string_view shade_details =
     R"(Sequences: # (four digits), #### or %04d in INPUT and OUTPUT stands for the frame number. Without --frames every
-frame found on disk is shaded. A frame that fails does not stop the others.
+frame found on disk is shaded. A frame that fails does not stop the others: it is named, and the exit code is 4.
+
+Frames are read, shaded and written side by side: as many as --threads keeps busy and --max-mem holds. A frame that
+does not fit is shaded in bands of rows. The bytes of an output depend on neither. The kernel is built once a run.
+
+An output is written under a temporary name, forced to the medium, stamped as complete and renamed. -u skips frames
+whose output is complete and undamaged by its stamp, comes of the same scene and flags, and is newer than G-buffer,
+scene, cameras, environment and program. SIGINT and SIGTERM discard the frames in hand within a second (exit code 130,
+143); -u goes on from there, after a power cut and kill -9 as well. Any number of processes may share folders and the
+kernel cache. --json lists every frame with hashes, bytes, times and warnings.
+
+Cameras by frame: [camera.frames.101] in the scene gives frame 101 its own, keys missing there come from [camera]; file =
+"camera.%04d.json" (or .toml) under [camera] names a side file for each frame with matrix_world and fov_x_degrees,
+fov_y_degrees or orthographic_height, at top level or under `camera`. Listed frames win; a missing side file is an error.
 
 Without --scene: albedo role (else 0.5), f0 role (else 0.04), roughness or shininess role (else shininess 64), a key
 light over the camera's left shoulder and the built-in studio around. `clshade inspect INPUT` tells which channels play
@@ -30,7 +43,7 @@ rest goes to material.default. `clshade models` lists lobes, diffuse models, sta
 the models by itself; one that needs keys of its own (blinn_phong_anisotropic, blinn_phong_spectral) gets them by --set.
 
 OUTPUT.exr holds R, G, B (radiance), A (coverage) and what --aov and --keep ask for; the AOVs of all lights and of the
-environment add up to what is reflected. OUTPUT.png is a preview for the screen. An output is written under a temporary name and renamed when it is complete.
+environment add up to what is reflected. OUTPUT.png is a preview for the screen.
 
 --dump-kernel: of a sequence the first frame's program lies in DIR, further ones with other planes or materials in
 DIR/2, DIR/3, ...; start reading at shade.cl and materials.cl.
@@ -46,7 +59,8 @@ Examples:
   clshade shade in.exr -o out.exr --scene look.toml --aov diffuse,specular,environment
   clshade shade in.exr -o out.exr --scene look.toml --dump-kernel kernel
   clshade shade in.####.exr -o out.####.exr --scene look.toml --frames 1-100x2 -u
-  clshade shade in.#.exr -o out.#.exr --chunk 2/8 --progress openjd --json report.json)";
+  clshade shade in.%04d.exr -o out.%04d.exr --set camera.file=camera.%04d.json --runstats
+  clshade shade in.#.exr -o out.#.exr --chunk 2/8 -u --progress openjd --json report.json)";
 
 constexpr std::string_view check_details =
     R"(With INPUT: shades it on the device and with the scalar double-precision reference and compares every pixel, grouped

@@ -206,7 +206,7 @@ Action declare_shade(CLI::App& app) {
         ->type_name("LIST");
     app.add_option("--keep", o->keep, "input layers passed through to the output, comma-separated")->type_name("LIST");
     app.add_flag("-u,--update", o->update_only,
-                 "skip frames whose output is complete and newer than input, scene and environment");
+                 "skip frames whose output is complete, of the same scene and flags, and newer than its sources");
     app.add_flag("--no-clobber", o->no_clobber, "skip frames whose output exists");
     app.add_flag("--skip-bad-frames", o->skip_bad_frames,
                  "count frames with a missing or unreadable file as skipped, with a warning; the exit code is 4");
