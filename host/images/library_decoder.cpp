@@ -1,5 +1,6 @@
 #include "host/base/error.h"
 #include "host/images/chunk_slices.h"
+#include "host/images/library_threads.h"
 #include "host/images/part_decoder.h"
 
 #include <ImfChannelList.h>
@@ -221,6 +222,7 @@ class LibraryDecoder : public PartDecoder {
   public:
     explicit LibraryDecoder(const PartSource& source)
         : source_(source), chunk_bytes_(bytes_of_chunk(source.grid, find_slices(source))) {
+        stop_library_threads();
         for (const PlaneTarget& target : source.targets) {
             const auto first = std::find_if(targets_.begin(), targets_.end(),
                                             [&](const PlaneTarget& known) { return known.channel == target.channel; });

@@ -4,6 +4,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfThreading.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <half.h>
@@ -248,7 +249,8 @@ TEST(PlaneReader, AgreesWithTheLibrary) {
     const TemporaryFolder folder;
     constexpr int width = 203; // lines beyond a vector's length, and some left over
     constexpr int height = 67;
-    std::vector<float> values = any_values(static_cast<std::size_t>(width) * height, 11);
+    constexpr std::size_t row = width;
+    std::vector<float> values = any_values(row * height, 11);
     std::vector<half> halves(values.begin(), values.end());
     std::vector<unsigned> numbers(values.size());
     std::transform(values.begin(), values.end(), numbers.begin(), [](float v) { return std::bit_cast<unsigned>(v); });
@@ -257,9 +259,9 @@ TEST(PlaneReader, AgreesWithTheLibrary) {
         {
             Imf::OutputFile output((folder / "a.exr").c_str(), part.header);
             Imf::FrameBuffer buffer;
-            buffer.insert("A", Imf::Slice(Imf::HALF, reinterpret_cast<char*>(halves.data()), 2, 2 * width));
-            buffer.insert("Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), 4, 4 * width));
-            buffer.insert("id", Imf::Slice(Imf::UINT, reinterpret_cast<char*>(numbers.data()), 4, 4 * width));
+            buffer.insert("A", Imf::Slice(Imf::HALF, reinterpret_cast<char*>(halves.data()), 2, 2 * row));
+            buffer.insert("Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), 4, 4 * row));
+            buffer.insert("id", Imf::Slice(Imf::UINT, reinterpret_cast<char*>(numbers.data()), 4, 4 * row));
             output.setFrameBuffer(buffer);
             output.writePixels(height);
         }
@@ -296,6 +298,7 @@ TEST(PlaneReader, FewOfManyChannels) {
     // Uncompressed rows that lie far apart and close together, of several kinds, in both directions.
     const TemporaryFolder folder;
     std::vector<PartChannel> channels;
+    channels.reserve(40);
     for (int i = 0; i < 40; ++i) {
         channels.push_back(
             {"c" + std::to_string(100 + i), i % 3 == 0 ? Imf::HALF : (i % 3 == 1 ? Imf::FLOAT : Imf::UINT), i});
@@ -339,6 +342,14 @@ TEST(PlaneReader, AChannelMayBeWantedTwice) {
         EXPECT_EQ(planes.at(1, 7, 9), pattern(0, 7, 9));
         EXPECT_EQ(planes.at(2, 7, 9), pattern(1, 7, 9));
     }
+}
+
+TEST(PlaneReader, TheLibrarysOwnThreadsAreStopped) {
+    const TemporaryFolder folder;
+    write_parts(folder / "a.exr", {make_part({0, 0, 30, 20}, mixed, Imf::PIZ_COMPRESSION)});
+    Imf::setGlobalThreadCount(3);
+    expect_pattern(folder / "a.exr", mixed);
+    EXPECT_EQ(Imf::globalThreadCount(), 0);
 }
 
 TEST(PlaneReader, RowsOfABand) {
