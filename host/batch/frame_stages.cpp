@@ -62,6 +62,14 @@ std::vector<std::string> count_warnings(const std::string& file, const PixelCoun
     return warnings;
 }
 
+FileState state_of(const std::filesystem::path& file) {
+    std::error_code ignored; // whoever reads the file tells what is wrong with it
+    FileState state;
+    state.size = std::filesystem::file_size(file, ignored);
+    state.written = std::filesystem::last_write_time(file, ignored);
+    return state;
+}
+
 void refuse_filtered_ids(const std::string& file, const PixelCounts& counts) {
     if (counts.fractional_ids > 0) {
         throw UsageError(fmt::format("{}: material ids are filtered: {} pixels hold fractions; give a plane rendered "
@@ -93,6 +101,7 @@ void FrameStages::plan(FrameWork& work) const {
         work.done = true;
         return;
     }
+    work.input = state_of(job.input);
     work.planned = plan_input(job.input, scene_.scene, settings_.view, settings_.keep, job.number);
     work.outcome.width = work.planned.plan.frame.data_window.width();
     work.outcome.height = work.planned.plan.frame.data_window.height();
@@ -194,6 +203,7 @@ void FrameStages::write(FrameWork& work) {
     const Stopwatch watch;
     const FrameJob& job = *work.job;
     const OutputImage image = make_output(work.loaded, work.shaded, scene_, work.environment, *work.device, identity_);
+    refuse_changed(work);
     accept_file(work, write_output(job.output, image, settings_.exr, replace()), job.output);
     if (!job.preview.empty()) {
         accept_file(work, write_png(job.preview, image, replace()), job.preview);
@@ -250,6 +260,7 @@ void FrameStages::shade_in_bands(FrameWork& work, std::uint64_t limit) {
     if (listener_.interrupted()) {
         return;
     }
+    refuse_changed(work);
     watch.lap();
     accept_file(work, writer->commit(), job.output);
     work.outcome.stages.add("write", watch.lap());
@@ -258,7 +269,22 @@ void FrameStages::shade_in_bands(FrameWork& work, std::uint64_t limit) {
     finish(work);
 }
 
+void FrameStages::refuse_changed(const FrameWork& work) {
+    if (!(state_of(work.job->input) == work.input)) {
+        throw RuntimeFailure(fmt::format("{}: was written anew while it was shaded; run again when its writer has "
+                                         "finished",
+                                         work.job->input.string()));
+    }
+}
+
 void FrameStages::finish(FrameWork& work) const {
+    try {
+        refuse_changed(work);
+    } catch (const RuntimeFailure&) {
+        std::error_code ignored;
+        std::filesystem::last_write_time(work.job->output, work.input.written, ignored);
+        throw;
+    }
     append(work.outcome.warnings, std::move(work.loaded.warnings));
     append(work.outcome.notes, std::move(work.loaded.frame.notes));
     append(work.outcome.warnings, count_warnings(work.job->input.string(), work.outcome.counts));

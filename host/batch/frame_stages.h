@@ -7,14 +7,24 @@
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <set>
 #include <string>
 
 namespace clshade {
 
+/// What shows that somebody has written a file anew.
+struct FileState {
+    std::uintmax_t size = 0;
+    std::filesystem::file_time_type written;
+
+    bool operator==(const FileState&) const = default;
+};
+
 /// A frame under way.
 struct FrameWork {
     const FrameJob* job = nullptr;
+    FileState input; ///< when it was planned
     FrameOutcome outcome;
     std::exception_ptr failure;
     bool done = false; ///< written, or skipped
@@ -54,6 +64,10 @@ class FrameStages {
     [[nodiscard]] Shader& prepare(FrameWork& work);
     /// Times, counts and the kernel's identity.
     void account(FrameWork& work, const ShadedImage& shaded, double elapsed);
+    /// Throws RuntimeFailure if the G-buffer has been written anew since it was planned.
+    static void refuse_changed(const FrameWork& work);
+    /// After the output stands: the same, with the output marked as older than the new G-buffer, so that -u makes it
+    /// again.
     void finish(FrameWork& work) const;
     [[nodiscard]] Replace replace() const { return settings_.no_clobber ? Replace::no : Replace::yes; }
     void accept_file(FrameWork& work, const WrittenFile& file, const std::filesystem::path& path) const;

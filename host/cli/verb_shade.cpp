@@ -112,6 +112,9 @@ std::vector<FrameJob> jobs_of(const ShadeOptions& options) {
     for (const int position : chunk_of(positions, chunk.index, chunk.count)) {
         chosen.push_back(jobs[static_cast<std::size_t>(position)]);
     }
+    if (chosen.empty() && !options.common.quiet) {
+        fmt::print("chunk {} of {} frames holds none: nothing to do\n", options.chunk, jobs.size());
+    }
     return chosen;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/base/error.h"
+#include "host/device/build_lock.h"
 #include "host/device/device.h"
 #include "host/device/program.h"
 
@@ -68,10 +69,11 @@ struct Program::State {
     cl::Program program;
     BuildReport report;
     ProgramCache cache = ProgramCache::disabled();
-    std::mutex mutex;               ///< guards the two sets: kernels of one program may run from several threads
-    std::set<std::string> launched; ///< launch shapes seen in this process
-    std::set<std::string> stored;   ///< launch shapes that the file in the cache already holds code for
-    bool on_disk = false;           ///< the cache holds this program
+    std::mutex mutex;                    ///< guards the two sets: kernels of one program may run from several threads
+    std::set<std::string> launched;      ///< launch shapes seen in this process
+    std::set<std::string> stored;        ///< launch shapes that the file in the cache already holds code for
+    bool on_disk = false;                ///< the cache holds this program
+    std::unique_ptr<BuildLock> building; ///< until the cache holds it
 
     void note_launch(const std::string& kernel, std::size_t global, std::size_t local, std::size_t offset);
 };

@@ -216,7 +216,14 @@ Program::Program(Device& device, const SourceSet& sources, const std::string& ma
     state_->report.identity = identity_of(*state_->device, source, all_options);
     state_->report.from_cache = load_stored(*state_, main, all_options);
     if (!state_->report.from_cache) {
-        state_->program = build_from_source(*state_->device, source, main, all_options);
+        // Kept until the first launch has made machine code of it and the cache has that: see store_binary().
+        state_->building = std::make_unique<BuildLock>(cache.folder(), state_->report.identity);
+        state_->report.from_cache = load_stored(*state_, main, all_options); // by whoever was first
+        if (state_->report.from_cache) {
+            state_->building.reset();
+        } else {
+            state_->program = build_from_source(*state_->device, source, main, all_options);
+        }
     }
     const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
     state_->report.milliseconds = spent.count();
@@ -246,6 +253,7 @@ void Program::store_binary() {
     state.stored.insert(state.launched.begin(), state.launched.end());
     state.on_disk = true; // one try: a cache that cannot be written is not asked again for the same shapes
     state.cache.store(state.report.identity, pack(state.stored, binary_of(state)));
+    state.building.reset();
 }
 
 } // namespace clshade

@@ -3,12 +3,12 @@
 #include "host/base/error.h"
 #include "host/images/chunk_encoder.h"
 #include "host/images/exr_header.h"
+#include "host/images/library_threads.h"
 #include "host/images/pack.h"
 
 #include <ImfFrameBuffer.h>
 #include <ImfIO.h>
 #include <ImfOutputFile.h>
-#include <ImfThreading.h>
 
 #include <algorithm>
 #include <cstring>
@@ -62,9 +62,7 @@ class LibraryEncoder final : public ChunkEncoder {
     LibraryEncoder(const OutputImage& image, const ExrSettings& settings)
         : shape_(chunk_shape(image, settings)), window_(image.data_window), channels_(image.channels),
           settings_(settings) {
-        if (Imf::globalThreadCount() != 0) {
-            Imf::setGlobalThreadCount(0);
-        }
+        stop_library_threads();
     }
 
     EncodedChunk encode(const ChunkRows& rows, std::byte* out) override {

@@ -99,7 +99,7 @@ bool lock_own(int descriptor) {
 
 /// Removes a temporary unless its writer lives.
 void remove_if_stale(const std::filesystem::path& file) {
-    const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW); // NFS locks no readers
     if (descriptor < 0) {
         return;
     }

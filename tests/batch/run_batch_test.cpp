@@ -17,6 +17,7 @@
 namespace clshade::tests {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -168,6 +169,33 @@ TEST_F(RunBatch, AnInterruptionLeavesWholeFramesOnly) {
     for (const std::string& name : names_in(folder_.path() / "out")) {
         EXPECT_TRUE(read_completion_stamp(folder_.path() / "out" / name).has_value()) << name;
     }
+}
+
+// Written anew in mid-frame: no picture of the old one may pass for one of the new one.
+TEST_F(RunBatch, RefusesInputsThatChangeInHand) {
+    class Changer final : public BatchResources {
+      public:
+        Changer(TestResources& real, std::filesystem::path file) : real_(real), file_(std::move(file)) {}
+        Shader& shader() override { return real_.shader(); }
+        const DeviceInfo& device() override { return real_.device(); }
+        const EnvironmentInput* environment(StageTimes& /*stages*/) override { return nullptr; }
+        void about_to_shade(const Frame& frame) override {
+            if (frame.file == file_.string()) {
+                std::filesystem::last_write_time(file_, std::filesystem::file_time_type::clock::now());
+            }
+        }
+
+      private:
+        TestResources& real_;
+        std::filesystem::path file_;
+    };
+    TestResources real;
+    Changer resources(real, input(3));
+    TestListener listener;
+    run_batch(jobs(), scene_, {}, resources, listener);
+    EXPECT_THAT(listener.bad, ElementsAre(3));
+    EXPECT_THAT(listener.messages[0], AllOf(HasSubstr("in.0003.exr"), HasSubstr("written anew")));
+    EXPECT_FALSE(std::filesystem::exists(output(3)));
 }
 
 // What killed processes left behind goes away; what living ones write stays.
