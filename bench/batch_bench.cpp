@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 #include <glm/glm.hpp>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -277,7 +276,6 @@ std::vector<BenchResult> run_batch_rows(Device& device, const BenchOptions& opti
         return results;
     }
     const int threads = options.threads > 0 ? options.threads : threads_or_all(0);
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
     BatchContestant ours(device, options, threads);
     const int lanes = options.lanes > 0 ? options.lanes : automatic_lanes(device.info());
     const int frames = options.quick ? 3 : sequence_frames;

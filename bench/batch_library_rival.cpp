@@ -10,6 +10,7 @@
 #include <ImfThreading.h>
 #include <fmt/format.h>
 #include <half.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <openexr.h>
@@ -231,6 +232,8 @@ double decode_and_encode(const BareWork& work, LibraryPath path) {
     for (int i = 0; i < shape.at_once; ++i) {
         planes.emplace_back(work.picture->width, work.picture->height, static_cast<int>(work.channels.size()));
     }
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(work.threads));
     std::atomic<std::size_t> next{0};
     const auto start = std::chrono::steady_clock::now();
     try {

@@ -82,7 +82,6 @@ OurRun BatchContestant::run(const OurWork& work) {
     }
     BatchSettings settings;
     settings.exr = encoding_of(work.half, work.compression);
-    settings.exr.threads = state_->threads;
     settings.threads = state_->threads;
     Sums sums;
     const auto start = std::chrono::steady_clock::now();

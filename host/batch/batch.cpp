@@ -5,10 +5,12 @@
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <thread>
 #include <utility>
 
 namespace clshade {
@@ -17,8 +19,16 @@ namespace {
 
 /// What the compiler of kernels takes for a while, and what else comes with the first frame.
 constexpr std::uint64_t start_memory = std::uint64_t{256} << 20U;
-/// Frames under way beyond one for each thread: one waits to be shaded, one for the medium.
-constexpr std::uint64_t frames_waiting = 2;
+/// Frames under way beyond one for each thread: one waits, for the device or for the medium. A second would cost more
+/// in fresh memory than it gains.
+constexpr std::uint64_t frames_waiting = 1;
+
+/// One worker stands still at any time: for a kernel that runs on the driver's threads, or for the medium. Where all
+/// processors may be used, one more worker keeps them busy; else --threads is a promise.
+std::size_t workers_for(int threads) {
+    const auto wanted = static_cast<std::size_t>(std::max(threads, 1));
+    return wanted >= std::thread::hardware_concurrency() && wanted > 1 ? wanted + 1 : wanted;
+}
 
 using WorkPointer = std::unique_ptr<FrameWork>;
 
@@ -158,8 +168,7 @@ class BatchRun {
 
 void run_batch(std::span<const FrameJob> jobs, const RunScene& scene, const BatchSettings& settings,
                BatchResources& resources, BatchListener& listener) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(std::max(settings.threads, 1)));
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, workers_for(settings.threads));
     std::vector<std::filesystem::path> outputs;
     for (const FrameJob& job : jobs) {
         outputs.push_back(job.output);
@@ -168,7 +177,8 @@ void run_batch(std::span<const FrameJob> jobs, const RunScene& scene, const Batc
         }
     }
     remove_stale_temporaries(outputs);
-    BatchRun(jobs, scene, settings, resources, listener).run();
+    tbb::task_arena arena(static_cast<int>(workers_for(settings.threads)));
+    arena.execute([&] { BatchRun(jobs, scene, settings, resources, listener).run(); });
 }
 
 } // namespace clshade

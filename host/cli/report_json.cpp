@@ -2,8 +2,6 @@
 
 #include "host/cli/signals.h"
 
-#include <tbb/global_control.h>
-
 namespace clshade::cli {
 
 void JsonReport::set_device(const DeviceInfo& info) {
@@ -36,8 +34,6 @@ nlohmann::json JsonReport::document() const {
 
 ExitCode with_report(const CommonOptions& options, const std::string& command,
                      const std::function<ExitCode(JsonReport&)>& verb) {
-    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(options.host_threads()));
     JsonReport report(command);
     const auto write = [&] {
         if (!options.json_file.empty()) {

@@ -42,7 +42,7 @@ class JsonReport {
     nlohmann::json extra_ = nlohmann::json::object();
 };
 
-/// Runs a verb on no more than --threads threads and writes its report to options.json_file (nothing if empty), also
+/// Runs a verb and writes its report to options.json_file (nothing if empty), also
 /// when the verb throws: then with a result of status "error", if the verb has added none. What the verb threw is
 /// thrown on.
 ExitCode with_report(const CommonOptions& options, const std::string& command,

@@ -9,6 +9,7 @@
 #include "host/cli/report_json.h"
 #include "host/cli/run_stats.h"
 #include "host/cli/session.h"
+#include "host/cli/thread_limit.h"
 #include "host/cli/verb.h"
 
 #include <CLI/CLI.hpp>
@@ -283,6 +284,7 @@ Action declare_check(CLI::App& app) {
     add_common_options(app, o->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);
+        const auto limit = thread_limit(options->common);
         return with_report(options->common, "check", [&](JsonReport& report) {
             if (!options->ground_truth.empty()) {
                 return ground_truth(*options, report);

@@ -6,6 +6,7 @@
 #include "host/cli/plan_text.h"
 #include "host/cli/report_json.h"
 #include "host/cli/table.h"
+#include "host/cli/thread_limit.h"
 #include "host/cli/verb.h"
 #include "host/images/image_reader.h"
 
@@ -290,6 +291,7 @@ Action declare_inspect(CLI::App& app) {
     add_common_options(app, options->common, CommonGroup::reporting);
     return [options] {
         set_log_level(options->common);
+        const auto limit = thread_limit(options->common);
         return with_report(options->common, "inspect", [&](JsonReport& report) { return inspect(*options, report); });
     };
 }

@@ -6,6 +6,7 @@
 #include "host/cli/run_stats.h"
 #include "host/cli/session.h"
 #include "host/cli/table.h"
+#include "host/cli/thread_limit.h"
 #include "host/cli/verb.h"
 #include "host/images/environment_file.h"
 #include "host/prefilter/grid_mean.h"
@@ -178,6 +179,7 @@ Action declare_prefilter(CLI::App& app) {
     add_common_options(app, options->common, CommonGroup::running);
     return [options] {
         set_log_level(options->common);
+        const auto limit = thread_limit(options->common);
         return with_report(options->common, "prefilter",
                            [&](JsonReport& report) { return prefilter(*options, report); });
     };

@@ -22,7 +22,6 @@ struct ExrSettings {
     std::string compression = "zip"; ///< none rle zips zip piz pxr24 b44 b44a dwaa dwab
     /// zip, zips: libdeflate's 1 (quick) to 9 (small), 4 if absent. dwaa, dwab: lossiness, 45 if absent.
     std::optional<double> level;
-    int threads = 1;
 };
 
 /// Planes to write: names[i] is the channel name of plane plane_index[i] of slab[i].

@@ -41,7 +41,7 @@ OutputImage image_of(const PlaneSlab& slab) {
 }
 
 WrittenFile write(const std::filesystem::path& file, const OutputImage& image, const std::string& compression = "zip") {
-    return file.extension() == ".png" ? write_png(file, image) : write_exr(file, image, {true, compression, {}, 1});
+    return file.extension() == ".png" ? write_png(file, image) : write_exr(file, image, {true, compression, {}});
 }
 
 class CompletionStampOf : public ::testing::TestWithParam<const char*> {};

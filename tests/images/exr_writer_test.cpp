@@ -227,7 +227,7 @@ TEST(ExrWriter, TheLevelReachesTheCompression) {
     write_exr(folder / "a.exr", image, settings);
     write_with_library(folder / "b.exr", image, settings, folder / "a.exr");
     EXPECT_EQ(bytes_of_file(folder / "a.exr"), bytes_of_file(folder / "b.exr"));
-    write_exr(folder / "b.exr", image, {true, "dwaa", {}, 1});
+    write_exr(folder / "b.exr", image, {true, "dwaa", {}});
     EXPECT_NE(std::filesystem::file_size(folder / "a.exr"), std::filesystem::file_size(folder / "b.exr"));
 }
 
@@ -275,7 +275,7 @@ TEST(ExrWriter, SeveralFilesAtOnce) {
     const PlaneSlab slab = example(64, 100);
     const OutputImage image = image_of(slab);
     for (const char* compression : compressions) {
-        write_exr(folder / (std::string(compression) + ".exr"), image, {true, compression, {}, 1});
+        write_exr(folder / (std::string(compression) + ".exr"), image, {true, compression, {}});
     }
     // From tasks and from threads of the caller's own.
     std::vector<std::string> written(40);
@@ -312,8 +312,8 @@ TEST(ExrWriter, ValuesClampedInBandsAndInChunksThatDoNotShrinkAreCountedOnce) {
         slab.at(2, 0, 0) = 1e9F;        // a channel of floats
         slab.at(4, 8, 33) = 1e9F;       // noise
         const OutputImage image = image_of(slab);
-        EXPECT_EQ(write_exr(folder / "a.exr", image, {true, compression, {}, 1}).clamped, 3U) << compression;
-        EXPECT_EQ(write_exr(folder / "a.exr", image, {false, compression, {}, 1}).clamped, 0U) << compression;
+        EXPECT_EQ(write_exr(folder / "a.exr", image, {true, compression, {}}).clamped, 3U) << compression;
+        EXPECT_EQ(write_exr(folder / "a.exr", image, {false, compression, {}}).clamped, 0U) << compression;
     }
 }
 
@@ -395,7 +395,7 @@ TEST(ExrWriter, AFileWithoutItsEndIsNotOneWhoeverReadsIt) {
     const TemporaryFolder folder;
     const PlaneSlab slab = example(300, 600);
     const OutputImage image = image_of(slab);
-    ExrWriter writer(folder / "a.exr", image, {false, "none", {}, 1});
+    ExrWriter writer(folder / "a.exr", image, {false, "none", {}});
     writer.write(image.channels, 0, 599);
     const std::vector<std::string> temporaries = folder.names();
     ASSERT_EQ(temporaries.size(), 1U);
