@@ -7,7 +7,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <string>
 
 namespace clshade::tests {
 namespace {
@@ -65,7 +68,7 @@ TEST_F(BatchRun, TheManifestKnowsEveryFrame) {
 
 // Stopped in mid-run: within a second, with a report of what is done, and -u goes on from there.
 TEST_F(BatchRun, AnInterruptedRunReportsAndGoesOn) {
-    constexpr int frames = 400;
+    constexpr int frames = 150;
     make_inputs(frames);
     const auto third = folder / "out.0003.exr";
     double sent = 0.0;
@@ -109,6 +112,37 @@ TEST_F(BatchRun, UpdatesFollowTheFlags) {
     const Outcome other = shade({"-u", "--set", "material.default.specular.shininess=5"});
     EXPECT_THAT(other.out, Not(HasSubstr("skipped")));
     EXPECT_NE(bytes_of(folder / "out.0001.exr"), before);
+}
+
+// The lines of README's section on batches, run by a shell as they stand.
+TEST(Readme, BatchLinesRunAsWritten) {
+    const std::string readme = bytes_of(std::filesystem::path(CLSHADE_SOURCE_DIR) / "README.md");
+    const std::string fence = "```sh\n";
+    const std::size_t section = readme.find("\n## Batches\n");
+    ASSERT_NE(section, std::string::npos);
+    const std::size_t begin = readme.find(fence, section) + fence.size();
+    const std::string lines = readme.substr(begin, readme.find("```", begin) - begin);
+    ASSERT_EQ(std::count(lines.begin(), lines.end(), '\n'), 5) << lines;
+
+    const TemporaryFolder folder;
+    for (const char* frame : {"1", "2", "3"}) {
+        write_gbuffer_without_camera(folder / fmt::format("anim.000{}.exr", frame), surface_planes());
+        write_bytes(folder / fmt::format("anim.000{}.json", frame),
+                    R"({"camera": {"matrix_world": [[1,0,0,0],[0,1,0,0],[0,0,1,5],[0,0,0,1]], "fov_y_deg": 40.0}})");
+    }
+    const std::filesystem::path program = CLSHADE_PROGRAM;
+    const std::string command = fmt::format("cd '{}' && PATH='{}':\"$PATH\" && set -e\n{}", folder.path().string(),
+                                            program.parent_path().string(), lines);
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    for (const char* name : {"lit.0003.exr", "part.0001.exr", "seen.0002.png", "manifest.json"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "part.0003.exr")) << "of the other chunk";
+    for (const char* frame : {"1", "2", "3"}) {
+        EXPECT_TRUE(bytes_of(folder / fmt::format("tight.000{}.exr", frame)) ==
+                    bytes_of(folder / fmt::format("lit.000{}.exr", frame)))
+            << frame;
+    }
 }
 
 } // namespace
