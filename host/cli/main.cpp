@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <cstdio>
 #include <exception>
@@ -25,6 +28,16 @@ void log_to_stderr() {
     logger->set_pattern("clshade: %l: %v");
     logger->set_level(spdlog::level::warn);
     spdlog::set_default_logger(std::move(logger));
+}
+
+// Codecs take and give back megabytes for every block of a picture: memory that the process keeps need not be cleared
+// by the system again and again (2 to 6 % of a sequence).
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_THRESHOLD, 32 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    mallopt(M_TOP_PAD, 16 << 20);
+#endif
 }
 
 // Flags nobody declared, and arguments too many.
@@ -143,6 +156,7 @@ ExitCode guarded(std::vector<std::string> arguments) {
 } // namespace clshade::cli
 
 int main(int argc, char** argv) {
+    clshade::cli::keep_freed_memory();
     clshade::cli::log_to_stderr();
     clshade::cli::install_signal_handlers();
     return static_cast<int>(clshade::cli::guarded({argv + 1, argv + argc}));
