@@ -13,13 +13,23 @@ constexpr double filter_ends = 0.25;
 
 } // namespace
 
+// Frames that fail for reasons of their own are told of while others wait for the environment: has_failed() must not be
+// true before it is.
+template <class Action>
+auto RunEnvironment::noting_failure(const Action& action) {
+    try {
+        return action();
+    } catch (...) {
+        failed_ = true;
+        throw;
+    }
+}
+
 const EnvironmentInput* RunEnvironment::read(StageTimes& stages) {
     if (scene_->environment && !input_) {
-        Stopwatch watch;
-        failed_ = true; // unless it goes well
-        input_ = read_environment(*scene_, max_memory_);
-        failed_ = false;
-        stages.add(stage, watch.lap());
+        const Stopwatch watch;
+        input_ = noting_failure([&] { return read_environment(*scene_, max_memory_); });
+        stages.add(stage, watch.milliseconds());
     }
     return input();
 }
@@ -28,11 +38,10 @@ std::string RunEnvironment::prefilter(Shader& shader, Progress& progress, StageT
     if (!input_ || input_->maps != nullptr) {
         return {};
     }
-    Stopwatch watch;
-    failed_ = true;
-    const PrefilterReport report = prefilter_environment(*input_, shader, progress, filter_begins, filter_ends);
-    failed_ = false;
-    stages.add(stage, watch.lap());
+    const Stopwatch watch;
+    const PrefilterReport report =
+        noting_failure([&] { return prefilter_environment(*input_, shader, progress, filter_begins, filter_ends); });
+    stages.add(stage, watch.milliseconds());
     return report.from_cache ? "from the cache" : "built";
 }
 

@@ -4,6 +4,7 @@
 #include "host/cli/environment_input.h"
 #include "host/cli/run_stats.h"
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,15 +24,19 @@ class RunEnvironment {
     std::string prefilter(Shader& shader, Progress& progress, StageTimes& stages);
 
     /// Reading or filtering has thrown: no other frame could do better.
+    /// Any thread may ask.
     [[nodiscard]] bool has_failed() const { return failed_; }
     /// What was read; null before, and without an environment.
     [[nodiscard]] const EnvironmentInput* input() const { return input_ ? &*input_ : nullptr; }
 
   private:
+    template <class Action>
+    auto noting_failure(const Action& action);
+
     const Scene* scene_;
     std::uint64_t max_memory_;
     std::optional<EnvironmentInput> input_;
-    bool failed_ = false;
+    std::atomic<bool> failed_{false};
 };
 
 } // namespace clshade::cli

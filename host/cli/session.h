@@ -7,7 +7,6 @@
 #include "host/shading/shader.h"
 
 #include <optional>
-#include <set>
 #include <string>
 
 namespace clshade::cli {
@@ -27,8 +26,6 @@ class Session {
     [[nodiscard]] Prefilter& prefilter();
     /// --lanes; for `auto` what `bench --tune` stored for this device, else 0: the shader's own choice.
     [[nodiscard]] int lanes();
-    /// True the first time a program is met: its build belongs to that frame and to no other.
-    [[nodiscard]] bool is_new_program(const std::string& identity) { return programs_.insert(identity).second; }
 
   private:
     CommonOptions options_;
@@ -36,7 +33,6 @@ class Session {
     std::optional<Device> device_;
     std::optional<Shader> shader_;
     std::optional<Prefilter> prefilter_;
-    std::set<std::string> programs_;
 };
 
 } // namespace clshade::cli

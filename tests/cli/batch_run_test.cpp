@@ -66,6 +66,27 @@ TEST_F(BatchRun, TheManifestKnowsEveryFrame) {
     EXPECT_THAT(document.at("results").at(1).at("reason").get<std::string>(), HasSubstr("in.0002.exr"));
 }
 
+// A bad frame is told of while the others still wait for the environment, which is none of its faults.
+TEST_F(BatchRun, ABadFrameIsNotTakenForABadEnvironment) {
+    make_inputs(3);
+    write_bytes(folder / "in.0001.exr", bytes_of(folder / "in.0002.exr").substr(0, 3000));
+    std::string rows;
+    for (int y = 0; y < 64; ++y) { // a picture nobody has filtered before, so that filtering takes its time
+        for (int x = 0; x < 128; ++x) {
+            rows += static_cast<char>(40 + (x * 7 + y * 13) % 150);
+            rows += static_cast<char>(60);
+            rows += static_cast<char>(80);
+            rows += static_cast<char>(130);
+        }
+    }
+    write_bytes(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n" + rows);
+    const Outcome run = shade({"--set", "environment.image=sky.hdr"});
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("1 of 3 frames failed: 1"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.0002.exr"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.0003.exr"));
+}
+
 // Stopped in mid-run: within a second, with a report of what is done, and -u goes on from there.
 TEST_F(BatchRun, AnInterruptedRunReportsAndGoesOn) {
     constexpr int frames = 150;
