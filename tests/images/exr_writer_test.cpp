@@ -197,7 +197,7 @@ TEST(ExrWriter, OtherProgramsReadWhatTheLibraryWouldHaveWritten) {
         const OutputImage image = image_of(slab, left, top);
         for (const char* compression : compressions) {
             for (const bool as_half : {true, false}) {
-                const ExrSettings settings{as_half, compression, {}, 1};
+                const ExrSettings settings{as_half, compression, {}};
                 const WrittenFile written = write_exr(folder / "a.exr", image, settings);
                 EXPECT_EQ(written.bytes, std::filesystem::file_size(folder / "a.exr"));
                 EXPECT_GT(written.busy_milliseconds, 0.0);
@@ -223,7 +223,7 @@ TEST(ExrWriter, TheLevelReachesTheCompression) {
     const TemporaryFolder folder;
     const PlaneSlab slab = example(64, 64);
     const OutputImage image = image_of(slab);
-    const ExrSettings settings{true, "dwaa", 200.0, 1};
+    const ExrSettings settings{true, "dwaa", 200.0};
     write_exr(folder / "a.exr", image, settings);
     write_with_library(folder / "b.exr", image, settings, folder / "a.exr");
     EXPECT_EQ(bytes_of_file(folder / "a.exr"), bytes_of_file(folder / "b.exr"));
@@ -250,7 +250,7 @@ TEST(ExrWriter, TheSameBytesInAnyBandsOnAnyThreads) {
     const OutputImage image = image_of(slab, 3, -7);
     for (const char* compression : compressions) {
         for (const bool as_half : {true, false}) {
-            const ExrSettings settings{as_half, compression, {}, 1};
+            const ExrSettings settings{as_half, compression, {}};
             const WrittenFile whole = write_exr(folder / "whole.exr", image, settings);
             const std::string expected = bytes_of_file(folder / "whole.exr");
             const int block = ExrWriter(folder / "unused.exr", image, settings).band_rows();
@@ -281,7 +281,7 @@ TEST(ExrWriter, SeveralFilesAtOnce) {
     std::vector<std::string> written(40);
     const auto write_one = [&](std::size_t i) {
         const std::string name = std::to_string(i) + ".exr";
-        write_exr(folder / name, image, {true, compressions.at(i % compressions.size()), {}, 1});
+        write_exr(folder / name, image, {true, compressions.at(i % compressions.size()), {}});
         written[i] = bytes_of_file(folder / name);
     };
     std::vector<std::thread> threads;
