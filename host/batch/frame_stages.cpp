@@ -281,8 +281,10 @@ void FrameStages::finish(FrameWork& work) const {
     try {
         refuse_changed(work);
     } catch (const RuntimeFailure&) {
-        std::error_code ignored;
-        std::filesystem::last_write_time(work.job->output, work.input.written, ignored);
+        if (work.outcome.skipped.empty()) { // else the file is another process's
+            std::error_code ignored;
+            std::filesystem::last_write_time(work.job->output, work.input.written, ignored);
+        }
         throw;
     }
     append(work.outcome.warnings, std::move(work.loaded.warnings));

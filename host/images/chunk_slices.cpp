@@ -8,9 +8,7 @@
 
 namespace clshade {
 
-namespace {
-
-SampleType sample_type(exr_pixel_type_t type) {
+SampleType sample_type_of(exr_pixel_type_t type) {
     switch (type) {
     case EXR_PIXEL_HALF:
         return SampleType::half;
@@ -21,8 +19,6 @@ SampleType sample_type(exr_pixel_type_t type) {
     }
 }
 
-} // namespace
-
 ChunkSlices find_slices(const PartSource& source) {
     const ExrFile& file = *source.file;
     const exr_attr_chlist_t* channels = nullptr;
@@ -31,7 +27,7 @@ ChunkSlices find_slices(const PartSource& source) {
     ChunkSlices result;
     for (int i = 0; i < channels->num_channels; ++i) {
         const exr_attr_chlist_entry_t& channel = channels->entries[i];
-        const SampleType type = sample_type(channel.pixel_type);
+        const SampleType type = sample_type_of(channel.pixel_type);
         for (std::size_t target = 0; target < source.targets.size(); ++target) {
             if (!found[target] && source.targets[target].channel == channel.name.str) {
                 result.slices.push_back(

@@ -9,6 +9,9 @@
 
 namespace clshade {
 
+/// The library's name of a sample's type in ours.
+[[nodiscard]] SampleType sample_type_of(exr_pixel_type_t type);
+
 /// A wanted channel. Samples lie in the file line by line, and within a line channel by channel in the header's order.
 struct ChunkSlice {
     SampleType type = SampleType::half;

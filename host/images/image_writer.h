@@ -107,8 +107,8 @@ class ExrWriter {
     std::unique_ptr<State> state_;
 };
 
-/// Removes temporaries of these files that a killed process left behind, on this machine or another; those of living
-/// processes are locked and stay. Never throws.
+/// Removes temporaries of these files that a killed process left behind; those of living processes are locked and stay
+/// (a file system shared between machines must share locks, too). Never throws.
 void remove_stale_temporaries(std::span<const std::filesystem::path> targets) noexcept;
 
 /// Removes temporaries of files being written; async-signal-safe, for SIGINT and SIGTERM handlers.

@@ -1,6 +1,7 @@
 #include "host/base/error.h"
 #include "host/images/channel_names.h"
 #include "host/images/chunk_grid.h"
+#include "host/images/chunk_slices.h"
 #include "host/images/exr_file.h"
 #include "host/images/image_reader.h"
 #include "host/images/manifest_file.h"
@@ -124,17 +125,6 @@ void add_attributes(const ExrFile& file, int index, PartInfo& part, ImageLayout&
         } else if (structural.count(name) == 0) {
             add_attribute(*attribute, layout);
         }
-    }
-}
-
-SampleType sample_type_of(exr_pixel_type_t type) {
-    switch (type) {
-    case EXR_PIXEL_HALF:
-        return SampleType::half;
-    case EXR_PIXEL_UINT:
-        return SampleType::uint32;
-    default:
-        return SampleType::float32;
     }
 }
 
